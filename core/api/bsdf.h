@@ -1,0 +1,90 @@
+#pragma once
+// How a surface point scatters light: a sum of lobes in the shading frame.
+
+#include <array>
+#include <cstdint>
+#include <memory_resource>
+#include <optional>
+
+#include "core/api/interaction.h"
+
+namespace pbrt {
+
+// Per-thread memory for what lives as long as one camera ray. Nothing in it is destroyed, so
+// only trivially destructible objects may be placed there.
+using Scratch = std::pmr::monotonic_buffer_resource;
+
+template <class T, class... Args>
+const T* place(Scratch& scratch, Args&&... args) {
+  static_assert(std::is_trivially_destructible_v<T>);
+  return new (scratch.allocate(sizeof(T), alignof(T))) T(std::forward<Args>(args)...);
+}
+
+// What a lobe does; a set of lobes is asked for by or-ing.
+enum LobeFlags : std::uint8_t {
+  kReflection = 1,
+  kTransmission = 2,
+  kDiffuse = 4,
+  kGlossy = 8,
+  kSpecular = 16,  // a delta distribution: f() and pdf() are zero
+  kAllLobes = 31,
+};
+
+struct BsdfSample {
+  Spectrum f{0};  // for a specular lobe the reflectance over |cos theta_i|
+  Vec3 wi{};
+  float pdf = 0;  // per solid angle; for a specular lobe the probability of its choice
+  std::uint8_t flags = 0;
+  float eta = 1;  // transmitted over incident index of refraction, if transmitted
+};
+
+// One lobe. Directions are unit, local (z is the shading normal) and point away from the
+// surface.
+class Bxdf {
+ public:
+  constexpr explicit Bxdf(std::uint8_t flags) : flags_(flags) {}
+  std::uint8_t flags() const { return flags_; }
+  bool matches(std::uint8_t wanted) const { return (flags_ & wanted) == flags_; }
+
+  virtual Spectrum f(const Vec3& wo, const Vec3& wi) const = 0;
+  // Default: cosine-weighted on wo's side.
+  virtual float pdf(const Vec3& wo, const Vec3& wi) const;
+  virtual std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const;
+
+ protected:
+  ~Bxdf() = default;  // never destroyed through the base; see Scratch
+
+ private:
+  std::uint8_t flags_;
+};
+
+// Directions here are in render space.
+class Bsdf {
+ public:
+  static constexpr int kMaxLobes = 8;
+
+  explicit Bsdf(const SurfaceInteraction& at) : frame_(at.frame()), n_(at.n) {}
+  void add(const Bxdf* lobe) { lobes_[count_++] = lobe; }
+
+  // Whether any lobe has one of these kinds (e.g. kDiffuse | kGlossy: worth asking f()).
+  bool has(std::uint8_t kinds) const;
+  int lobes(std::uint8_t wanted) const;
+
+  // Reflection or transmission is told by the geometric normal, so that interpolated normals
+  // leak no light (Veach 1997, section 5.3).
+  Spectrum f(const Vec3& wo, const Vec3& wi, std::uint8_t wanted = kAllLobes) const;
+  float pdf(const Vec3& wo, const Vec3& wi, std::uint8_t wanted = kAllLobes) const;
+  // Chooses a lobe with equal chances by u.x, then a direction; f and pdf are those of the whole
+  // (unless the lobe is specular). Empty: no sample.
+  std::optional<BsdfSample> sample(const Vec3& wo, Point2 u, std::uint8_t wanted = kAllLobes) const;
+
+  const Frame& frame() const { return frame_; }
+
+ private:
+  Frame frame_;
+  Normal3 n_;
+  int count_ = 0;
+  std::array<const Bxdf*, kMaxLobes> lobes_{};
+};
+
+}  // namespace pbrt

@@ -1,0 +1,26 @@
+// The key functions of the interfaces: one vtable and one type_info each, in the core library, so
+// that casts and catches work across shared objects.
+
+#include "core/api/camera.h"
+#include "core/api/filter.h"
+#include "core/api/integrator.h"
+#include "core/api/light.h"
+#include "core/api/material.h"
+#include "core/api/sampler.h"
+#include "core/api/shape.h"
+#include "core/api/world.h"
+
+namespace pbrt {
+
+Shape::~Shape() = default;
+MeshShape::~MeshShape() = default;
+Light::~Light() = default;
+Camera::~Camera() = default;
+Filter::~Filter() = default;
+Sampler::~Sampler() = default;
+Material::~Material() = default;
+World::~World() = default;
+Integrator::~Integrator() = default;
+SamplingIntegrator::~SamplingIntegrator() = default;
+
+}  // namespace pbrt

@@ -1,0 +1,65 @@
+#pragma once
+// What an integrator may ask of a scene.
+
+#include <span>
+
+#include "core/api/bsdf.h"
+#include "core/api/camera.h"
+#include "core/api/light.h"
+
+namespace pbrt {
+
+// Which primitive a ray meets first, and where along it. Geometry and shading data are worked out
+// only when surface() is asked.
+struct Hit {
+  float t = kInfinity;
+  float u = 0, v = 0;
+  std::uint32_t primitive = 0;
+  std::uint32_t geometry = kNone;
+  std::uint32_t instance = kNone;
+
+  static constexpr std::uint32_t kNone = ~0U;
+  bool found() const { return geometry != kNone; }
+};
+
+class World {
+ public:
+  static constexpr int kBatch = 16;
+
+  virtual ~World();
+
+  virtual Hit intersect(const Ray& ray) const = 0;
+  virtual bool occluded(const Ray& ray) const = 0;
+  // Up to kBatch rays at once, faster if they are alike (neighbouring pixels; one point and one
+  // light). Occlusion: bit i tells of ray i.
+  virtual void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const = 0;
+  virtual std::uint32_t occluded(std::span<const Ray> rays) const = 0;
+
+  // The point that a hit of this ray names; `hit` must be found. The footprint is filled in if
+  // the ray has differentials.
+  virtual SurfaceInteraction surface(const RayDifferential& ray, const Hit& hit) const = 0;
+  // The scattering at a point (after bump mapping, which turns `at`'s shading frame).
+  virtual Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const = 0;
+
+  std::span<const Light* const> lights() const { return lights_; }
+  std::span<const Light* const> infiniteLights() const { return infiniteLights_; }
+  // Radiance from the unit direction w for a ray that hits nothing.
+  Spectrum escaped(const Vec3& w) const {
+    Spectrum L(0);
+    for (const Light* light : infiniteLights_) L += light->escaped(w);
+    return L;
+  }
+  const Camera& camera() const { return *camera_; }
+  const Bounds3& bounds() const { return bounds_; }
+  // Whether any texture filters, so that rays should carry differentials.
+  bool filters() const { return filters_; }
+
+ protected:
+  std::vector<const Light*> lights_;
+  std::vector<const Light*> infiniteLights_;
+  const Camera* camera_ = nullptr;
+  Bounds3 bounds_;
+  bool filters_ = false;
+};
+
+}  // namespace pbrt

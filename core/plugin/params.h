@@ -1,0 +1,126 @@
+#pragma once
+// Checked reading of parameters. The reader is the declaration: one call reads, checks, defaults
+// and documents a parameter, so that `pbrt --describe` needs nothing else.
+
+#include <optional>
+#include <span>
+
+#include "core/api/texture.h"
+#include "core/plugin/param.h"
+
+namespace pbrt {
+
+// One line of `pbrt --describe`.
+struct Declaration {
+  std::string name;
+  std::string type;          // as a scene file writes it
+  std::string defaultValue;  // empty: required; "-": may be left out
+  std::string meaning;
+  std::string unit;  // empty: a pure number or no number
+};
+
+// Where named textures come from.
+class TextureLibrary {
+ public:
+  virtual ~TextureLibrary() = default;
+  // Never null: throws Error (with "did you mean") if there is none of this name and type.
+  virtual std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) = 0;
+  virtual std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) = 0;
+};
+
+// The parameters of one plug-in object. Every reading function throws Error with the place of the
+// offending parameter; a wrong type, count or range never gives a silent default.
+class Params {
+ public:
+  // What is read: one or more lists, the first that has a name wins (a shape's parameters go
+  // before its material's), then `defaults`, which a dialect of the format may supply.
+  // Locations and lists must outlive this object. `what` is "shapes/sphere".
+  Params(std::string what, Location where, std::vector<const ParamList*> lists,
+         TextureLibrary* textures = nullptr, Reporter report = {},
+         const ParamList* defaults = nullptr);
+  // For `--describe`: has no values, gives every default (zeros for what is required), and
+  // records the declarations.
+  static Params describing(std::string what, std::vector<Declaration>& declarations);
+
+  // -- one value ------------------------------------------------------------------------------
+  float number(const std::string& name, float fallback, std::string_view meaning,
+               std::string_view unit = "");
+  float positive(const std::string& name, float fallback, std::string_view meaning,
+                 std::string_view unit = "");  // > 0
+  float nonNegative(const std::string& name, float fallback, std::string_view meaning,
+                    std::string_view unit = "");  // >= 0
+  float inRange(const std::string& name, float fallback, float lo, float hi,
+                std::string_view meaning, std::string_view unit = "");  // lo <= x <= hi
+  std::optional<float> optionalNumber(const std::string& name, std::string_view meaning,
+                                      std::string_view unit = "");
+  int integer(const std::string& name, int fallback, int lo, int hi, std::string_view meaning);
+  bool flag(const std::string& name, bool fallback, std::string_view meaning);
+  std::string text(const std::string& name, const std::string& fallback, std::string_view meaning);
+  std::string choice(const std::string& name, std::span<const std::string_view> allowed,
+                     std::string_view fallback, std::string_view meaning);
+  Point3 point(const std::string& name, const Point3& fallback, std::string_view meaning);
+  Vec3 vector(const std::string& name, const Vec3& fallback, std::string_view meaning);
+  Spectrum spectrum(const std::string& name, const Spectrum& fallback, std::string_view meaning);
+
+  // -- values or textures ----------------------------------------------------------------------
+  Textured<float> floatTexture(const std::string& name, float fallback, std::string_view meaning,
+                               std::string_view unit = "");
+  Textured<Spectrum> spectrumTexture(const std::string& name, const Spectrum& fallback,
+                                     std::string_view meaning);
+  // As above with no default: empty if the parameter is absent.
+  std::optional<Textured<float>> optionalFloatTexture(const std::string& name,
+                                                      std::string_view meaning);
+  template <class T>  // float or Spectrum, for textures of either kind
+  Textured<T> texture(const std::string& name, float fallback, std::string_view meaning);
+
+  // -- lists; empty if absent --------------------------------------------------------------------
+  std::vector<float> numbers(const std::string& name, std::string_view meaning,
+                             std::string_view unit = "");
+  std::vector<int> integers(const std::string& name, std::string_view meaning);
+  std::vector<Point2> points2(const std::string& name, std::string_view meaning);
+  std::vector<Point3> points(const std::string& name, std::string_view meaning);
+  std::vector<Vec3> vectors(const std::string& name, std::string_view meaning);
+  std::vector<Normal3> normals(const std::string& name, std::string_view meaning);
+  std::vector<Spectrum> spectra(const std::string& name, std::string_view meaning);
+
+  // -- errors -------------------------------------------------------------------------------------
+  bool has(const std::string& name) const;
+  // The plug-in's own complaint, at the parameter's value (or the statement, if it is absent).
+  [[noreturn]] void fail(const std::string& name, const std::string& message) const;
+  // Throws if the parameter is absent: call after the reading that declared it.
+  void require(const std::string& name) const;
+  void warn(const std::string& name, const std::string& message) const;
+
+  // True while a --describe reads: values are defaults, so relations between them need not hold.
+  bool describing() const { return declarations_ != nullptr; }
+  // The statement.
+  const Location& where() const { return where_; }
+  // Parameters of list `i` that nobody read, as errors with "did you mean".
+  std::vector<Diagnostic> unread(std::size_t list = 0) const;
+
+ private:
+  struct Use {
+    const ParamList* list;
+    std::vector<bool> read;
+  };
+
+  const Param* find(const std::string& name, std::span<const ParamType> types,
+                    std::string_view wanted);
+  void declare(const std::string& name, std::string_view type, std::string fallback,
+               std::string_view meaning, std::string_view unit = "");
+  template <class V>
+  std::vector<V> list(const std::string& name, std::span<const ParamType> types,
+                      std::string_view type, std::string_view meaning, std::string_view unit = "");
+  std::string message(const std::string& text) const { return what_ + ": " + text; }
+
+  std::string what_;
+  Location where_;
+  std::vector<Use> uses_;
+  const ParamList* defaults_ = nullptr;
+  TextureLibrary* textures_ = nullptr;
+  Reporter report_;
+  std::vector<std::string> known_;  // every name asked for, for "did you mean"
+  std::vector<Declaration>* declarations_ = nullptr;
+};
+
+}  // namespace pbrt
