@@ -45,7 +45,7 @@ std::unique_ptr<Interface> make(const std::string& name, const ParamList& list =
   const PluginInfo& plugin = loader().open(kindOf<Interface>, name);
   Params params(name, {}, {&list});
   auto object = create<Interface>(plugin, params, setup);
-  if (const auto unread = params.unread(); !unread.empty()) throw Error(unread);
+  params.refuseUnread();
   return object;
 }
 

@@ -21,11 +21,12 @@ struct Frame {
   }
 
   // The frame about the unit vector z whose x axis lies as near to the tangent as it can;
-  // any frame if the tangent is zero, not finite or parallel to z.
+  // any frame if the tangent is zero, not finite or within half a degree of z, where rounding
+  // would skew the frame.
   static Frame fromZX(const Vec3& z, const Vec3& tangent) {
     const Vec3 t = tangent - glm::dot(tangent, z) * z;
     const float l2 = lengthSquared(t);
-    if (!(l2 > 1e-12F * lengthSquared(tangent)) || !std::isfinite(l2)) return fromZ(z);
+    if (!(l2 > 1e-4F * lengthSquared(tangent)) || !std::isfinite(l2)) return fromZ(z);
     const Vec3 x = t / std::sqrt(l2);
     return {x, glm::cross(z, x), z};
   }

@@ -33,7 +33,9 @@ constexpr float uniformFloat(std::uint32_t bits) {
 // PCG32 (O'Neill 2014), seeded by one hash.
 class Rng {
  public:
-  explicit Rng(std::uint64_t seed = 0) : state_(mixBits(seed)), increment_(seed << 1U | 1U) {}
+  // mixBits(0) is 0, from which the first numbers would be 0 as well.
+  explicit Rng(std::uint64_t seed = 0)
+      : state_(mixBits(seed + 0x9e3779b97f4a7c15ULL)), increment_(seed << 1U | 1U) {}
 
   std::uint32_t bits() {
     const std::uint64_t old = state_;

@@ -22,7 +22,10 @@ Transform Transform::rotate(double degrees, const DVec3& axis) {
 Transform Transform::lookAt(const DPoint3& eye, const DPoint3& look, const DVec3& up,
                             bool mirrored) {
   const DVec3 z = glm::normalize(look - eye);
-  DVec3 x = glm::normalize(glm::cross(glm::normalize(up), z));
+  const DVec3 side = glm::cross(glm::normalize(up), z);
+  // Parallel vectors span a sliver once they are rounded.
+  if (!(glm::length(side) > 1e-10)) return Transform(glm::dmat4(0));
+  DVec3 x = glm::normalize(side);
   const DVec3 y = glm::cross(z, x);
   if (mirrored) x = -x;
   const glm::dmat4 worldFromCamera(glm::dvec4(x, 0), glm::dvec4(y, 0), glm::dvec4(z, 0),
@@ -34,7 +37,12 @@ bool Transform::invertible() const {
   for (int c = 0; c < 4; ++c)
     for (int r = 0; r < 4; ++r)
       if (!std::isfinite(m_[c][r]) || !std::isfinite(inverse_[c][r])) return false;
-  return true;
+  // Beyond this condition number (of the linear part, Frobenius norm) nothing is left of 53 bits:
+  // the matrix is singular but for rounding.
+  const auto norm2 = [](const glm::dmat3& m) {
+    return lengthSquared(m[0]) + lengthSquared(m[1]) + lengthSquared(m[2]);
+  };
+  return norm2(glm::dmat3(m_)) * norm2(glm::dmat3(inverse_)) < sqr(1e13);
 }
 
 bool Transform::swapsHandedness() const {

@@ -9,7 +9,8 @@ namespace pbrt {
 class Transform {
  public:
   Transform() = default;
-  // m maps column vectors; the inverse is computed. A singular m gives `invertible() == false`.
+  // m maps column vectors; the inverse is computed. If m is singular, but for rounding, then
+  // `invertible()` is false.
   explicit Transform(const glm::dmat4& m);
   Transform(const glm::dmat4& m, const glm::dmat4& inverse) : m_(m), inverse_(inverse) {}
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -56,7 +57,28 @@ enum class DirectiveKind : std::uint8_t {
 };
 // Include is not among them: the parser carries it out.
 
+// What follows a keyword; the values in [] may be left out.
+enum class Arguments : std::uint8_t {
+  none,
+  name,     // "name"
+  names,    // "name" ["name"]
+  plugin,   // "name" parameters
+  texture,  // "name" "type" "class" parameters
+  numbers,  // so many numbers, in brackets or not
+  time      // StartTime, EndTime or All
+};
+
+struct Syntax {
+  std::string_view keyword;
+  Arguments arguments = Arguments::none;
+  std::size_t numbers = 0;
+};
+
+const Syntax& syntax(DirectiveKind kind);
 std::string_view directiveName(DirectiveKind kind);
+std::optional<DirectiveKind> findDirective(std::string_view keyword);
+// Every keyword, for "did you mean".
+std::vector<std::string> directiveNames();
 
 struct Directive {
   DirectiveKind kind = DirectiveKind::Identity;

@@ -15,15 +15,17 @@ class Parser {
  public:
   explicit Parser(DirectiveSink sink) : sink_(std::move(sink)) {}
 
-  // Parses a file and all that it includes (relative to the including file; at most 32 deep; a
-  // file that includes itself is an error). Throws Error: Failure::io if the first file cannot
-  // be read, Failure::scene for everything in the text.
+  // Parses a file and all that it includes: found relative to the including file or, as in
+  // pbrt-v3, to the first one; at most 32 deep; a file that includes itself is an error. Throws
+  // Error: Failure::io if the first file cannot be read, Failure::scene for everything in the
+  // text. What the sink throws passes through. The first error ends the parse.
   void file(const std::filesystem::path& path);
   // Parses a text, e.g. standard input; includes are relative to `directory`.
   void text(std::string name, std::string text, const std::filesystem::path& directory = ".");
 
  private:
-  void parse(const Source& source);
+  void parse(std::string name, std::string text, std::filesystem::path path);
+  void include(const Location& quoted);
 
   DirectiveSink sink_;
   std::deque<Source> sources_;               // addresses stay valid

@@ -95,8 +95,11 @@ class Params {
   bool describing() const { return declarations_ != nullptr; }
   // The statement.
   const Location& where() const { return where_; }
-  // Parameters of list `i` that nobody read, as errors with "did you mean".
-  std::vector<Diagnostic> unread(std::size_t list = 0) const;
+  // Parameters of list `i` that nobody read, and the error that says so, with "did you mean".
+  std::vector<const Param*> unread(std::size_t i = 0) const;
+  Diagnostic unknown(const Param& param) const;
+  // Throws if list `i` has unread parameters, with all of them at once.
+  void refuseUnread(std::size_t i = 0) const;
 
  private:
   struct Use {
@@ -122,5 +125,12 @@ class Params {
   std::vector<std::string> known_;  // every name asked for, for "did you mean"
   std::vector<Declaration>* declarations_ = nullptr;
 };
+
+template <>
+Textured<float> Params::texture<float>(const std::string& name, float fallback,
+                                       std::string_view meaning);
+template <>
+Textured<Spectrum> Params::texture<Spectrum>(const std::string& name, float fallback,
+                                             std::string_view meaning);
 
 }  // namespace pbrt

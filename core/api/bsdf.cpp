@@ -1,0 +1,95 @@
+#include "core/api/bsdf.h"
+
+#include "core/base/warp.h"
+
+namespace pbrt {
+
+float Bxdf::pdf(const Vec3& wo, const Vec3& wi) const {
+  return sameHemisphere(wo, wi) ? cosHemispherePdf(absCosTheta(wi)) : 0;
+}
+
+std::optional<BsdfSample> Bxdf::sample(const Vec3& wo, Point2 u) const {
+  BsdfSample s;
+  s.wi = cosHemisphere(u);
+  if (wo.z < 0) s.wi.z = -s.wi.z;
+  s.pdf = pdf(wo, s.wi);
+  if (!(s.pdf > 0)) return {};
+  s.f = f(wo, s.wi);
+  return s;
+}
+
+namespace {
+
+// `wanted` without the lobes that have nothing to say about this pair of directions: those of the
+// other side of the surface, and the specular ones.
+std::uint8_t onSide(const Vec3& wo, const Vec3& wi, const Normal3& n, std::uint8_t wanted) {
+  const bool reflected = glm::dot(wo, n) * glm::dot(wi, n) > 0;
+  return static_cast<std::uint8_t>(wanted & ~(reflected ? kTransmission : kReflection) &
+                                   ~kSpecular);
+}
+
+}  // namespace
+
+bool Bsdf::has(std::uint8_t kinds) const {
+  for (int i = 0; i < count_; ++i)
+    if (lobes_[i]->flags() & kinds) return true;
+  return false;
+}
+
+int Bsdf::lobes(std::uint8_t wanted) const {
+  int n = 0;
+  for (int i = 0; i < count_; ++i) n += lobes_[i]->matches(wanted);
+  return n;
+}
+
+Spectrum Bsdf::f(const Vec3& wo, const Vec3& wi, std::uint8_t wanted) const {
+  const std::uint8_t side = onSide(wo, wi, n_, wanted);
+  const Vec3 o = frame_.toLocal(wo), i = frame_.toLocal(wi);
+  Spectrum f(0);
+  for (int l = 0; l < count_; ++l)
+    if (lobes_[l]->matches(side)) f += lobes_[l]->f(o, i);
+  return f;
+}
+
+float Bsdf::pdf(const Vec3& wo, const Vec3& wi, std::uint8_t wanted) const {
+  const Vec3 o = frame_.toLocal(wo), i = frame_.toLocal(wi);
+  float sum = 0;
+  int n = 0;
+  for (int l = 0; l < count_; ++l)
+    if (lobes_[l]->matches(wanted)) {
+      ++n;
+      if (!(lobes_[l]->flags() & kSpecular)) sum += lobes_[l]->pdf(o, i);
+    }
+  return n > 0 ? sum / static_cast<float>(n) : 0;
+}
+
+std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, Point2 u, std::uint8_t wanted) const {
+  const int n = lobes(wanted);
+  if (n == 0) return {};
+  const float stretched = u.x * static_cast<float>(n);
+  const int choice = std::min(static_cast<int>(stretched), n - 1);
+  int chosen = 0;
+  for (int skip = choice; !lobes_[chosen]->matches(wanted) || skip-- > 0;) ++chosen;
+  const Bxdf& lobe = *lobes_[chosen];
+
+  const Vec3 o = frame_.toLocal(wo);
+  u.x = std::min(stretched - static_cast<float>(choice), kOneMinusEpsilon);
+  std::optional<BsdfSample> s = lobe.sample(o, u);
+  if (!s || !(s->pdf > 0)) return {};
+  const Vec3 i = s->wi;
+  s->wi = frame_.fromLocal(i);
+  s->flags = lobe.flags();
+  if (!(lobe.flags() & kSpecular)) {
+    const std::uint8_t side = onSide(wo, s->wi, n_, wanted);
+    if (!lobe.matches(side)) s->f = Spectrum(0);
+    for (int l = 0; l < count_; ++l) {
+      if (l == chosen || !lobes_[l]->matches(wanted)) continue;
+      if (!(lobes_[l]->flags() & kSpecular)) s->pdf += lobes_[l]->pdf(o, i);
+      if (lobes_[l]->matches(side)) s->f += lobes_[l]->f(o, i);
+    }
+  }
+  s->pdf /= static_cast<float>(n);
+  return s;
+}
+
+}  // namespace pbrt

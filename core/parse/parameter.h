@@ -1,0 +1,29 @@
+#pragma once
+// From the tokens of a parameter to its typed values.
+
+#include "core/plugin/param.h"
+
+namespace pbrt {
+
+// A value as it is written. The places of the items tell their kind by their first character.
+struct Value {
+  Location where;               // with the brackets
+  bool numbersOnly = false;     // a bracketed list of numbers and white space alone; no items then
+  std::vector<Location> items;  // numbers, quoted strings, true and false
+};
+
+// The bytes of a place.
+std::string_view textAt(const Location& where);
+
+// The text of a quoted string, its escapes (\" \\ \' \n \t \r \b \f) resolved.
+std::string unquote(const Location& quoted);
+
+// The numbers of a value, T float, double or int. `wanted` completes the message "expected ...".
+template <class T>
+std::vector<T> numbersOf(const Value& value, std::string_view wanted);
+
+// The parameter which the quoted declaration and the value give. Throws Error at the place of
+// what is wrong: the declaration, the type, one of the values, or their count.
+Param makeParam(const Location& declaration, const Value& value);
+
+}  // namespace pbrt

@@ -1,0 +1,138 @@
+#include "core/plugin/loader.h"
+
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstdlib>
+
+namespace pbrt {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::array<std::string_view, kPluginKinds> kNames = {
+    "shape", "material", "texture", "light", "camera", "sampler", "filter", "integrator"};
+constexpr std::array<std::string_view, kPluginKinds> kFolders = {
+    "shapes", "materials", "textures", "lights", "cameras", "samplers", "filters", "integrators"};
+
+void addPaths(std::vector<fs::path>& path, std::string_view list) {
+  while (!list.empty()) {
+    const std::size_t colon = std::min(list.find(':'), list.size());
+    if (colon > 0) path.emplace_back(list.substr(0, colon));
+    list.remove_prefix(std::min(colon + 1, list.size()));
+  }
+}
+
+// A name from a scene file is a name, never a path.
+bool isName(std::string_view name) {
+  return !name.empty() && name.size() < 100 && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '-';
+  });
+}
+
+// Why the plug-in cannot be used; empty if it can. The order matters: until the ABI number agrees
+// nothing but the first field may be read.
+std::string refusal(const PluginInfo* info, PluginKind kind, const std::string& name) {
+  if (!info) return "its entry function returns nothing";
+  if (info->abi != kAbiVersion)
+    return fmt::format("it was built for plug-in ABI {}, this pbrt has ABI {}; build it again",
+                       info->abi, kAbiVersion);
+  if (info->layout != coreFingerprint())
+    return "its data layout differs from that of this pbrt (another compiler, library version or "
+           "set of GLM options); build it again";
+  if (info->kind != kind)
+    return fmt::format("it is a {}, not a {}", kindName(info->kind), kindName(kind));
+  if (info->name != name) return fmt::format("it calls itself \"{}\"", info->name);
+  return "";
+}
+
+}  // namespace
+
+std::string_view kindName(PluginKind kind) {
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+std::string_view kindFolder(PluginKind kind) {
+  return kFolders.at(static_cast<std::size_t>(kind));
+}
+std::uint64_t coreFingerprint() {
+  return compiledFingerprint();
+}
+
+std::vector<fs::path> PluginLoader::searchPath(const std::string& extra) {
+  std::vector<fs::path> path;
+  addPaths(path, extra);
+  if (const char* environment = std::getenv("PBRT_PLUGIN_PATH")) addPaths(path, environment);
+  std::error_code ignored;
+  const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
+  if (!ignored) path.push_back(self.parent_path().parent_path() / "lib" / "pbrt");
+  return path;
+}
+
+const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
+  const auto key = std::pair(kind, name);
+  if (const auto known = cache_.find(key); known != cache_.end()) return *known->second;
+
+  fs::path file;
+  if (isName(name))
+    for (const fs::path& directory : path_) {
+      const fs::path candidate = directory / kindFolder(kind) / (name + ".so");
+      if (fs::exists(candidate)) {
+        file = fs::absolute(candidate);
+        break;
+      }
+    }
+  if (file.empty()) {
+    const std::vector<std::string> names = available(kind);
+    const std::string shown = name.size() > 60 ? name.substr(0, 60) + "..." : name;
+    if (names.empty())
+      throw Error(fmt::format("there are no {} in {}", kindFolder(kind),
+                              fmt::join(
+                                  [this] {
+                                    std::vector<std::string> paths;
+                                    for (const fs::path& p : path_) paths.push_back(p.string());
+                                    return paths;
+                                  }(),
+                                  ", ")),
+                  Failure::plugin);
+    throw Error(
+        fmt::format("there is no {} \"{}\"{}", kindName(kind), shown, didYouMean(name, names)));
+  }
+
+  const auto start = std::chrono::steady_clock::now();
+  // All symbols now: a missing one must not end a render halfway. Never closed: objects live on.
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle)
+    throw Error(fmt::format("{}: cannot be opened: {}", file.string(), dlerror()), Failure::plugin);
+  const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
+  if (!entry)
+    throw Error(
+        fmt::format("{}: is no pbrt plug-in (it has no function {})", file.string(), kPluginSymbol),
+        Failure::plugin);
+  const PluginInfo* info = entry();
+  if (const std::string reason = refusal(info, kind, name); !reason.empty())
+    throw Error(fmt::format("{}: {}", file.string(), reason), Failure::plugin);
+
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  opened_.push_back({info, file, seconds.count()});
+  cache_.emplace(key, info);
+  return *info;
+}
+
+std::vector<std::string> PluginLoader::available(PluginKind kind) const {
+  std::vector<std::string> names;
+  for (const fs::path& directory : path_) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(directory / kindFolder(kind), none))
+      if (entry.path().extension() == ".so") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace pbrt

@@ -1,0 +1,291 @@
+#include "core/scene/accel.h"
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "core/base/error.h"
+
+namespace pbrt {
+
+namespace {
+
+// Embree 4 took the context out of the calls and put optional arguments in.
+#if RTC_VERSION_MAJOR >= 4
+struct Query {
+  RTCIntersectArguments intersect;
+  RTCOccludedArguments occluded;
+  explicit Query(bool coherent) {
+    rtcInitIntersectArguments(&intersect);
+    rtcInitOccludedArguments(&occluded);
+    if (coherent) intersect.flags = occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  }
+};
+#else
+struct Query {
+  RTCIntersectContext context;
+  explicit Query(bool coherent) {
+    rtcInitIntersectContext(&context);
+    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  }
+};
+#endif
+
+thread_local std::uint64_t rayCount __attribute__((tls_model("initial-exec"))) = 0;
+
+RTCDevice device(void* d) {
+  return static_cast<RTCDevice>(d);
+}
+RTCScene scene(void* s) {
+  return static_cast<RTCScene>(s);
+}
+
+void check(RTCDevice d, std::string_view doing) {
+  const RTCError error = rtcGetDeviceError(d);
+  if (error == RTC_ERROR_NONE) return;
+  throw Error(error == RTC_ERROR_OUT_OF_MEMORY
+                  ? fmt::format("not enough memory for {}", doing)
+                  : fmt::format("Embree failed (error {}) at {}", static_cast<int>(error), doing));
+}
+
+// The order of a Transform's columns is Embree's.
+void setTransform(RTCGeometry geometry, const Transform& t) {
+  std::array<float, 12> m{};
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 3; ++r) m[3 * c + r] = static_cast<float>(t.matrix()[c][r]);
+  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m.data());
+}
+
+RTCRay toEmbree(const Ray& r) {
+  RTCRay e;
+  e.org_x = r.o.x, e.org_y = r.o.y, e.org_z = r.o.z;
+  e.dir_x = r.d.x, e.dir_y = r.d.y, e.dir_z = r.d.z;
+  e.tnear = r.tMin, e.tfar = r.tMax;
+  e.time = 0, e.mask = ~0U, e.id = 0, e.flags = 0;
+  return e;
+}
+
+template <class Ray16>
+void setLane(Ray16& e, int i, const Ray& r) {
+  e.org_x[i] = r.o.x, e.org_y[i] = r.o.y, e.org_z[i] = r.o.z;
+  e.dir_x[i] = r.d.x, e.dir_y[i] = r.d.y, e.dir_z[i] = r.d.z;
+  e.tnear[i] = r.tMin, e.tfar[i] = r.tMax;
+  e.time[i] = 0, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
+}
+
+}  // namespace
+
+struct Accel::UserGeometry {
+  const Shape* shape;
+  Transform toObject;
+  Transform toScene;
+
+  // The ray of lane i as the shape sees it.
+  ObjectRay ray(RTCRayN* rays, unsigned n, unsigned i) const {
+    return toObject.ray(
+        {{RTCRayN_org_x(rays, n, i), RTCRayN_org_y(rays, n, i), RTCRayN_org_z(rays, n, i)},
+         RTCRayN_tnear(rays, n, i),
+         {RTCRayN_dir_x(rays, n, i), RTCRayN_dir_y(rays, n, i), RTCRayN_dir_z(rays, n, i)},
+         RTCRayN_tfar(rays, n, i)});
+  }
+
+  static void bounds(const RTCBoundsFunctionArguments* a) {
+    const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    const Bounds3 b = g.toScene.bounds(g.shape->bounds(a->primID));
+    a->bounds_o->lower_x = b.lo.x, a->bounds_o->lower_y = b.lo.y, a->bounds_o->lower_z = b.lo.z;
+    a->bounds_o->upper_x = b.hi.x, a->bounds_o->upper_y = b.hi.y, a->bounds_o->upper_z = b.hi.z;
+  }
+
+  static void intersect(const RTCIntersectFunctionNArguments* a) {
+    const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
+    RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
+    for (unsigned i = 0; i < a->N; ++i) {
+      if (!a->valid[i]) continue;
+      const auto hit = g.shape->intersect(g.ray(rays, a->N, i), a->primID);
+      if (!hit) continue;
+      RTCRayN_tfar(rays, a->N, i) = hit->t;
+      RTCHitN_u(hits, a->N, i) = hit->u;
+      RTCHitN_v(hits, a->N, i) = hit->v;
+      RTCHitN_primID(hits, a->N, i) = hit->primitive;
+      RTCHitN_geomID(hits, a->N, i) = a->geomID;
+      RTCHitN_instID(hits, a->N, i, 0) = a->context->instID[0];
+    }
+  }
+
+  static void occluded(const RTCOccludedFunctionNArguments* a) {
+    const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    RTCRayN* rays = a->ray;
+    for (unsigned i = 0; i < a->N; ++i)
+      if (a->valid[i] && g.shape->occluded(g.ray(rays, a->N, i), a->primID))
+        RTCRayN_tfar(rays, a->N, i) = -kInfinity;
+  }
+};
+
+AccelDevice::AccelDevice(int threads)
+    : device_(rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr)) {
+  if (!device_) check(nullptr, "starting the ray tracer");
+}
+
+AccelDevice::~AccelDevice() {
+  rtcReleaseDevice(device(device_));
+}
+
+Accel::Accel(const AccelDevice& d) : device_(d.device_), scene_(rtcNewScene(device(d.device_))) {
+  // Without this flag rays may slip between neighbouring triangles.
+  rtcSetSceneFlags(scene(scene_), RTC_SCENE_FLAG_ROBUST);
+  check(device(device_), "a ray tree");
+}
+
+Accel::~Accel() {
+  rtcReleaseScene(scene(scene_));
+}
+
+void Accel::add(TriangleMesh& mesh) {
+  mesh.positions.reserve(mesh.positions.size() + 1);
+  RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_TRIANGLE);
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
+                             0, sizeof(Point3), mesh.positions.size());
+  rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
+                             3 * sizeof(std::uint32_t), mesh.triangles());
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(scene(scene_), g, count_++);
+  rtcReleaseGeometry(g);
+  check(device(device_), "a triangle mesh");
+}
+
+void Accel::add(const Shape& shape, const Transform& toScene) {
+  users_.push_back(
+      std::make_unique<UserGeometry>(UserGeometry{&shape, toScene.inverse(), toScene}));
+  RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(g, shape.primitives());
+  rtcSetGeometryUserData(g, users_.back().get());
+  rtcSetGeometryBoundsFunction(g, &UserGeometry::bounds, nullptr);
+  rtcSetGeometryIntersectFunction(g, &UserGeometry::intersect);
+  rtcSetGeometryOccludedFunction(g, &UserGeometry::occluded);
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(scene(scene_), g, count_++);
+  rtcReleaseGeometry(g);
+  check(device(device_), "a shape");
+}
+
+void Accel::add(const Accel& instance, const Transform& toScene) {
+  RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_INSTANCE);
+  rtcSetGeometryInstancedScene(g, scene(instance.scene_));
+  setTransform(g, toScene);
+  rtcCommitGeometry(g);
+  rtcAttachGeometryByID(scene(scene_), g, count_++);
+  rtcReleaseGeometry(g);
+  check(device(device_), "an object instance");
+}
+
+void Accel::build() {
+  rtcCommitScene(scene(scene_));
+  check(device(device_), "building the ray tree");
+}
+
+Bounds3 Accel::bounds() const {
+  RTCBounds b;
+  rtcGetSceneBounds(scene(scene_), &b);
+  return {{b.lower_x, b.lower_y, b.lower_z}, {b.upper_x, b.upper_y, b.upper_z}};
+}
+
+Hit Accel::intersect(const Ray& ray) const {
+  ++rayCount;
+  RTCRayHit e;
+  e.ray = toEmbree(ray);
+  e.hit.geomID = e.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  Query query(false);
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect1(scene(scene_), &e, &query.intersect);
+#else
+  rtcIntersect1(scene(scene_), &query.context, &e);
+#endif
+  if (e.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {e.ray.tfar, e.hit.u, e.hit.v, e.hit.primID, e.hit.geomID, e.hit.instID[0]};
+}
+
+bool Accel::occluded(const Ray& ray) const {
+  ++rayCount;
+  RTCRay e = toEmbree(ray);
+  Query query(false);
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded1(scene(scene_), &e, &query.occluded);
+#else
+  rtcOccluded1(scene(scene_), &query.context, &e);
+#endif
+  return e.tfar < 0;
+}
+
+void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const {
+  const int n = static_cast<int>(rays.size());
+  rayCount += rays.size();
+  alignas(64) std::array<int, World::kBatch> valid{};
+  alignas(64) RTCRayHit16 e;
+  for (int i = 0; i < World::kBatch; ++i) {
+    valid[i] = i < n ? -1 : 0;
+    if (i < n) setLane(e.ray, i, *rays[i]);
+    e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  Query query(true);
+#if RTC_VERSION_MAJOR >= 4
+  rtcIntersect16(valid.data(), scene(scene_), &e, &query.intersect);
+#else
+  rtcIntersect16(valid.data(), scene(scene_), &query.context, &e);
+#endif
+  for (int i = 0; i < n; ++i)
+    hits[i] = e.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
+                  ? Hit{}
+                  : Hit{e.ray.tfar[i],   e.hit.u[i],      e.hit.v[i],
+                        e.hit.primID[i], e.hit.geomID[i], e.hit.instID[0][i]};
+}
+
+std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
+  const int n = static_cast<int>(rays.size());
+  std::uint32_t mask = 0;
+  if (n < 3) {
+    for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(occluded(rays[i])) << i;
+    return mask;
+  }
+  rayCount += rays.size();
+  Query query(true);
+  if (n <= 8) {
+    alignas(32) std::array<int, 8> valid{};
+    alignas(32) RTCRay8 e;
+    for (int i = 0; i < n; ++i) {
+      valid[i] = -1;
+      setLane(e, i, rays[i]);
+    }
+#if RTC_VERSION_MAJOR >= 4
+    rtcOccluded8(valid.data(), scene(scene_), &e, &query.occluded);
+#else
+    rtcOccluded8(valid.data(), scene(scene_), &query.context, &e);
+#endif
+    for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(e.tfar[i] < 0) << i;
+    return mask;
+  }
+  alignas(64) std::array<int, World::kBatch> valid{};
+  alignas(64) RTCRay16 e;
+  for (int i = 0; i < n; ++i) {
+    valid[i] = -1;
+    setLane(e, i, rays[i]);
+  }
+#if RTC_VERSION_MAJOR >= 4
+  rtcOccluded16(valid.data(), scene(scene_), &e, &query.occluded);
+#else
+  rtcOccluded16(valid.data(), scene(scene_), &query.context, &e);
+#endif
+  for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(e.tfar[i] < 0) << i;
+  return mask;
+}
+
+std::uint64_t Accel::takeRayCount() {
+  return std::exchange(rayCount, 0);
+}
+
+}  // namespace pbrt

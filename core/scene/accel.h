@@ -1,0 +1,64 @@
+#pragma once
+// The ray tree. accel.cpp is the only file that knows Embree (3 or 4).
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/api/shape.h"
+#include "core/api/world.h"
+
+namespace pbrt {
+
+// The Embree device; one for all trees of a scene, which it must outlive.
+class AccelDevice {
+ public:
+  // threads: for building; 0 is all.
+  explicit AccelDevice(int threads);
+  ~AccelDevice();
+  AccelDevice(const AccelDevice&) = delete;
+  AccelDevice& operator=(const AccelDevice&) = delete;
+
+ private:
+  friend class Accel;
+  void* device_;
+};
+
+// One tree: geometries get the identifiers 0, 1, 2, ... in the order in which they are added.
+// All that is added must outlive the tree and stay where it is. Throws Error if Embree fails, for
+// lack of memory above all.
+class Accel {
+ public:
+  explicit Accel(const AccelDevice& device);
+  ~Accel();
+  Accel(const Accel&) = delete;
+  Accel& operator=(const Accel&) = delete;
+
+  // Traced natively, from the mesh's own arrays. Reserves room for one vertex more, which Embree
+  // may read.
+  void add(TriangleMesh& mesh);
+  void add(const Shape& shape, const Transform& toScene);
+  void add(const Accel& instance, const Transform& toScene);
+  void build();
+
+  Bounds3 bounds() const;  // empty if there is nothing
+
+  Hit intersect(const Ray& ray) const;
+  bool occluded(const Ray& ray) const;
+  void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const;
+  std::uint32_t occluded(std::span<const Ray> rays) const;
+
+  // How many rays this thread traced since it asked last.
+  static std::uint64_t takeRayCount();
+
+ private:
+  struct UserGeometry;
+
+  void* device_;
+  void* scene_;
+  std::uint32_t count_ = 0;
+  std::vector<std::unique_ptr<UserGeometry>> users_;
+};
+
+}  // namespace pbrt

@@ -1,0 +1,107 @@
+#include "core/scene/film.h"
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+
+namespace pbrt {
+
+Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float scale,
+           float brightest)
+    : resolution_(resolution),
+      crop_(crop),
+      scale_(scale),
+      brightest_(brightest),
+      radius_(filter.radius()) {
+  // The centre of pixel i is at i + 1/2; a sample at x reaches the centres within the radius.
+  const Point2i reach(glm::ceil(radius_ - 0.5F));
+  border_ = std::max({reach.x, reach.y, 0});
+  sampled_ = {crop.lo - reach, crop.hi + reach};
+  tilesX_ = (sampled_.width() + kTile - 1) / kTile;
+  tilesY_ = (sampled_.height() + kTile - 1) / kTile;
+  stride_ = kTile + 2 * border_;
+
+  // Weights at the centres of the table's cells: positions are rounded to 1/32 of the radius.
+  tableScale_ = static_cast<float>(kTable) / radius_;
+  table_.resize(std::size_t{kTable} * kTable);
+  for (int y = 0; y < kTable; ++y)
+    for (int x = 0; x < kTable; ++x)
+      table_[y * kTable + x] = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
+
+  const std::size_t count = std::size_t(tiles()) * stride_ * stride_;
+  try {
+    sums_.resize(count);
+  } catch (const std::exception&) {
+    throw Error(fmt::format("not enough memory for a film of {} x {} pixels ({} MiB)", crop.width(),
+                            crop.height(), count * sizeof(Sum) >> 20U));
+  }
+}
+
+Bounds2i Film::tilePixels(int tile) const {
+  const Point2i lo = sampled_.lo + Point2i(tile % tilesX_, tile / tilesX_) * kTile;
+  return intersect(sampled_, {lo, lo + kTile});
+}
+
+void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
+  Spectrum L = radiance * scale_;
+  if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
+  const Point2i origin = sampled_.lo + Point2i(tile % tilesX_, tile / tilesX_) * kTile - border_;
+  // Sample and pixel centres in the tile's own pixels, so that truncation rounds down.
+  const Point2 p = film - Point2(origin) - 0.5F;
+  const int x0 = std::max(0, static_cast<int>(p.x - radius_.x) + (p.x >= radius_.x));
+  const int y0 = std::max(0, static_cast<int>(p.y - radius_.y) + (p.y >= radius_.y));
+  const int x1 = std::min(stride_ - 1, static_cast<int>(p.x + radius_.x));
+  const int y1 = std::min(stride_ - 1, static_cast<int>(p.y + radius_.y));
+  for (int y = y0; y <= y1; ++y) {
+    const int ty = std::min(
+        kTable - 1, static_cast<int>(std::abs(static_cast<float>(y) - p.y) * tableScale_.y));
+    const float* weights = &table_[ty * kTable];
+    Sum* sums = row(tile, y);
+    for (int x = x0; x <= x1; ++x) {
+      const int tx = std::min(
+          kTable - 1, static_cast<int>(std::abs(static_cast<float>(x) - p.x) * tableScale_.x));
+      const double w = weights[tx];
+      Sum& sum = sums[x];
+      sum.r += w * L.x;
+      sum.g += w * L.y;
+      sum.b += w * L.z;
+      sum.alpha += w * alpha;
+      sum.weight += w;
+    }
+  }
+}
+
+Image Film::image() const {
+  Image image;
+  image.window = crop_;
+  image.resolution = resolution_;
+  image.names = {"R", "G", "B", "A"};
+  const std::size_t n = std::size_t(crop_.width()) * crop_.height();
+  image.channels.assign(4, std::vector<float>(n));
+
+  std::size_t i = 0;
+  for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
+    for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
+      // The tiles whose sums, with their borders, cover this pixel.
+      const Point2i p = Point2i(x, y) - sampled_.lo;
+      const Point2i first = glm::max(p - border_, 0) / kTile;
+      const Point2i last = glm::min((p + border_) / kTile, Point2i(tilesX_, tilesY_) - 1);
+      Sum sum;
+      for (int ty = first.y; ty <= last.y; ++ty)
+        for (int tx = first.x; tx <= last.x; ++tx) {
+          const Point2i in = p - Point2i(tx, ty) * kTile + border_;
+          const Sum& s = row(ty * tilesX_ + tx, in.y)[in.x];
+          sum.r += s.r, sum.g += s.g, sum.b += s.b;
+          sum.alpha += s.alpha, sum.weight += s.weight;
+        }
+      if (sum.weight == 0) continue;
+      const double scale = 1 / sum.weight;
+      image.channels[0][i] = static_cast<float>(std::max(0.0, sum.r * scale));
+      image.channels[1][i] = static_cast<float>(std::max(0.0, sum.g * scale));
+      image.channels[2][i] = static_cast<float>(std::max(0.0, sum.b * scale));
+      image.channels[3][i] = static_cast<float>(std::clamp(sum.alpha * scale, 0.0, 1.0));
+    }
+  return image;
+}
+
+}  // namespace pbrt

@@ -1,0 +1,68 @@
+#pragma once
+// The film: filtered sums of samples, kept so that the picture has the same bits whatever thread
+// adds what when.
+
+#include <memory>
+#include <span>
+
+#include "core/api/filter.h"
+#include "core/base/image.h"
+#include "core/base/spectrum.h"
+
+namespace pbrt {
+
+// The picture's samples are taken tile by tile. A sample is spread by the filter over the pixels
+// about it, which may lie in the next tile; each tile therefore owns its sums over its own pixels
+// and a border as wide as the filter, and one thread at a time works on it. image() adds the
+// overlapping sums in the order of the tiles. The sums are doubles: with floats, the ten millionth
+// sample of a pixel would change nothing.
+class Film {
+ public:
+  static constexpr int kTile = 32;
+
+  // `crop`: the pixels that are wanted, within [0, resolution). Samples brighter than `brightest`
+  // are darkened to that luminance, then multiplied by `scale`.
+  Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float scale = 1,
+       float brightest = kInfinity);
+
+  Point2i resolution() const { return resolution_; }
+  const Bounds2i& crop() const { return crop_; }
+  // Pixels in which samples are taken: the crop and, about it, the filter's reach.
+  const Bounds2i& sampledPixels() const { return sampled_; }
+
+  int tiles() const { return tilesX_ * tilesY_; }
+  Bounds2i tilePixels(int tile) const;
+
+  // Adds a sample taken at `film` (in pixels, within tilePixels(tile)).
+  void add(int tile, Point2 film, const Spectrum& L, float alpha);
+
+  // The picture so far: channels R, G, B, A over the crop, premultiplied by alpha as EXR has it.
+  // Pixels without samples are zero; negative values, which only filters with negative lobes make,
+  // are raised to zero.
+  Image image() const;
+
+ private:
+  struct Sum {
+    double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
+  };
+
+  static constexpr int kTable = 32;  // filter table, cells per radius
+
+  Sum* row(int tile, int y) { return &sums_[(std::size_t(tile) * stride_ + y) * stride_]; }
+  const Sum* row(int tile, int y) const {
+    return &sums_[(std::size_t(tile) * stride_ + y) * stride_];
+  }
+
+  Point2i resolution_;
+  Bounds2i crop_, sampled_;
+  int tilesX_ = 0, tilesY_ = 0;
+  float scale_, brightest_;
+  Vec2 radius_;
+  Vec2 tableScale_;
+  int border_ = 0;            // pixels beyond a tile that its samples reach
+  int stride_ = 0;            // pixels in a row of a tile with its borders
+  std::vector<float> table_;  // filter weights over one quadrant
+  std::vector<Sum> sums_;     // tile by tile, rows from the top, each with its border
+};
+
+}  // namespace pbrt

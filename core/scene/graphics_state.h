@@ -1,0 +1,49 @@
+#pragma once
+// What the statements of a scene act on: the current transform and the current attributes.
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/parse/directive.h"
+#include "core/scene/resources.h"
+
+namespace pbrt {
+
+using NamedMaterials = std::map<std::string, std::shared_ptr<MaterialDefinition>>;
+
+// Saved by AttributeBegin, restored by AttributeEnd; cheap to copy.
+struct Attributes {
+  bool reverse = false;
+  std::shared_ptr<MaterialDefinition> material;
+  std::shared_ptr<const Directive> areaLight;
+  std::shared_ptr<TextureScope> textures;
+  std::shared_ptr<const NamedMaterials> namedMaterials;  // never changed, only replaced
+};
+
+// The current transformation matrix and those that have names.
+class TransformState {
+ public:
+  // Carries out a directive that only concerns transforms; false if it is another one.
+  // Throws Error for a transform that cannot be undone, or a name that is not there.
+  bool apply(const Directive& d, Dialect dialect, const Reporter& report);
+
+  const Transform& current() const { return current_; }
+  void setCurrent(const Transform& t) { current_ = t; }
+  const Transform& base() const { return base_; }
+  // What Identity means from here on; becomes the current transform.
+  void setBase(const Transform& base) { current_ = base_ = base; }
+  void name(const std::string& name, const Transform& t) { named_[name] = t; }
+
+ private:
+  void set(const Transform& t, const Directive& d);
+
+  Transform base_;
+  Transform current_;
+  std::map<std::string, Transform> named_;
+  bool active_ = true;  // ActiveTransform: whether the start of the shutter is among the current
+  bool warned_ = false;
+};
+
+}  // namespace pbrt

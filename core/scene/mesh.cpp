@@ -1,0 +1,160 @@
+#include "core/scene/mesh.h"
+
+#include "core/base/warp.h"
+
+namespace pbrt {
+
+namespace {
+
+struct Corners {
+  std::uint32_t a, b, c;
+};
+
+Corners corners(const TriangleMesh& mesh, std::size_t triangle) {
+  const std::uint32_t* i = &mesh.indices[3 * triangle];
+  return {i[0], i[1], i[2]};
+}
+
+// Bound on the distance between the plane of a triangle, as the ray tracer computes it, and a
+// point interpolated on it. Both come from a few float operations on coordinates of the size of
+// the corners and on differences of the size of the edges.
+float planeError(const Point3& a, const Point3& b, const Point3& c) {
+  const Vec3 size = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
+  const Vec3 edge = glm::max(glm::abs(b - a), glm::abs(c - a));
+  return gammaBound(8) * (std::max({size.x, size.y, size.z}) + std::max({edge.x, edge.y, edge.z}));
+}
+
+class MeshSampler final : public AreaSampler {
+ public:
+  MeshSampler(const TriangleMesh& mesh, bool flip) : mesh_(mesh), flip_(flip) {
+    double sum = 0;
+    cumulative_.reserve(mesh.triangles());
+    for (std::size_t i = 0; i < mesh.triangles(); ++i) {
+      const Corners t = corners(mesh, i);
+      const DPoint3 a(mesh.positions[t.a]), b(mesh.positions[t.b]), c(mesh.positions[t.c]);
+      sum += 0.5 * glm::length(glm::cross(b - a, c - a));
+      cumulative_.push_back(sum);
+    }
+    for (const Point3& p : mesh.positions) bounds_.add(p);
+  }
+
+  double area() const override { return cumulative_.empty() ? 0 : cumulative_.back(); }
+
+  AreaSample sample(const DPoint3& from, Point2 u) const override {
+    // The part of u.x that did not choose the triangle is uniform again within it.
+    const double x = u.x * area();
+    const auto chosen = std::upper_bound(cumulative_.begin(), cumulative_.end() - 1, x);
+    const double before = chosen == cumulative_.begin() ? 0 : *(chosen - 1);
+    const auto rest = static_cast<float>((x - before) / (*chosen - before));
+    const Corners t = corners(mesh_, static_cast<std::size_t>(chosen - cumulative_.begin()));
+    const Point3 a = mesh_.positions[t.a], b = mesh_.positions[t.b], c = mesh_.positions[t.c];
+    const Point2 w = uniformTriangle({std::clamp(rest, 0.F, kOneMinusEpsilon), u.y});
+
+    AreaSample s;
+    s.p = DPoint3(a) * double(w.x) + DPoint3(b) * double(w.y) + DPoint3(c) * double(1 - w.x - w.y);
+    s.error = planeError(a, b, c);
+    s.n = glm::normalize(glm::cross(b - a, c - a)) * (flip_ ? -1.F : 1.F);
+    s.pdf = pdf(from, s.p, s.n);
+    return s;
+  }
+
+  // dA = d^2 dw / |cos|: uniform density over the area, seen from a distance.
+  float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
+    const DVec3 d = p - from;
+    const double distance2 = lengthSquared(d);
+    const double projected = std::abs(glm::dot(DVec3(n), d)) * area();
+    return projected > 0 ? static_cast<float>(distance2 * std::sqrt(distance2) / projected) : 0;
+  }
+
+  bool mayHit(const DPoint3& from, const DVec3& w) const override {
+    double near = 0, far = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < 3; ++i) {
+      const double slack =
+          1e-5 * (std::abs(from[i]) + std::abs(bounds_.lo[i]) + std::abs(bounds_.hi[i]));
+      const double a = (bounds_.lo[i] - slack - from[i]) / w[i];
+      const double b = (bounds_.hi[i] + slack - from[i]) / w[i];
+      near = std::max(near, std::min(a, b));
+      far = std::min(far, std::max(a, b));
+    }
+    return !(near > far);
+  }
+
+ private:
+  const TriangleMesh& mesh_;
+  bool flip_;
+  std::vector<double> cumulative_;  // area of all triangles up to and including the i-th
+  Bounds3 bounds_;
+};
+
+}  // namespace
+
+void transformMesh(TriangleMesh& mesh, const Transform& toScene) {
+  if (!toScene.isIdentity()) {
+    for (Point3& p : mesh.positions) p = Point3(toScene.point(DPoint3(p)));
+    for (Normal3& n : mesh.normals) n = Normal3(toScene.normal(DVec3(n)));
+    for (Vec3& t : mesh.tangents) t = Vec3(toScene.vector(DVec3(t)));
+  }
+  for (Normal3& n : mesh.normals)
+    if (const float l2 = lengthSquared(n); l2 > 0) n /= std::sqrt(l2);
+}
+
+SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool flip, bool reverse) {
+  const Corners t = corners(mesh, hit.primitive);
+  const Point3 a = mesh.positions[t.a], b = mesh.positions[t.b], c = mesh.positions[t.c];
+  const float wb = hit.u, wc = hit.v, wa = 1 - wb - wc;
+  const Vec3 ab = b - a, ac = c - a;
+
+  SurfaceInteraction s;
+  s.p = wa * a + wb * b + wc * c;
+  s.error = planeError(a, b, c);
+  s.n = glm::normalize(glm::cross(ab, ac));
+  if (flip) s.n = -s.n;
+
+  const bool hasUv = !mesh.uv.empty();
+  const Point2 uva = hasUv ? mesh.uv[t.a] : Point2(0, 0);
+  const Point2 uvb = hasUv ? mesh.uv[t.b] : Point2(1, 0);
+  const Point2 uvc = hasUv ? mesh.uv[t.c] : Point2(1, 1);
+  s.uv = wa * uva + wb * uvb + wc * uvc;
+
+  // p(u, v) is linear over the triangle: solve ab = dpdu du1 + dpdv dv1, ac = dpdu du2 + dpdv dv2;
+  // the normals' derivatives follow by the same inverse.
+  const Vec2 d1 = uvb - uva, d2 = uvc - uva;
+  const float determinant = d1.x * d2.y - d1.y * d2.x;
+  const bool solvable = std::abs(determinant) > 1e-12F * (lengthSquared(d1) + lengthSquared(d2));
+  const float inverse = solvable ? 1 / determinant : 0;
+  if (solvable) {
+    s.dpdu = (d2.y * ab - d1.y * ac) * inverse;
+    s.dpdv = (d1.x * ac - d2.x * ab) * inverse;
+  } else {
+    const Frame frame = Frame::fromZ(s.n);
+    s.dpdu = frame.x;
+    s.dpdv = frame.y;
+  }
+
+  s.ns = s.n;
+  if (!mesh.normals.empty()) {
+    const Normal3 na = mesh.normals[t.a], nb = mesh.normals[t.b], nc = mesh.normals[t.c];
+    const Normal3 ns = wa * na + wb * nb + wc * nc;
+    if (const float l2 = lengthSquared(ns); l2 > 0) {
+      const float scale = (reverse ? -1 : 1) / std::sqrt(l2);
+      s.ns = ns * scale;
+      s.n = faceForward(s.n, s.ns);
+      if (solvable) {
+        s.dndu = (d2.y * (nb - na) - d1.y * (nc - na)) * (inverse * scale);
+        s.dndv = (d1.x * (nc - na) - d2.x * (nb - na)) * (inverse * scale);
+      }
+    }
+  }
+  s.tangent = s.dpdu;
+  if (!mesh.tangents.empty())
+    s.tangent = wa * mesh.tangents[t.a] + wb * mesh.tangents[t.b] + wc * mesh.tangents[t.c];
+  return s;
+}
+
+std::unique_ptr<AreaSampler> meshSampler(const TriangleMesh& mesh, bool flip) {
+  auto sampler = std::make_unique<MeshSampler>(mesh, flip);
+  if (!(sampler->area() > 0)) return nullptr;
+  return sampler;
+}
+
+}  // namespace pbrt

@@ -1,0 +1,115 @@
+#include "core/scene/placement.h"
+
+namespace pbrt {
+
+namespace {
+
+// How much a map can stretch an error: the norm of its linear part, bounded by Frobenius'.
+double stretch(const Transform& t) {
+  const glm::dmat4& m = t.matrix();
+  return std::sqrt(lengthSquared(DVec3(m[0])) + lengthSquared(DVec3(m[1])) +
+                   lengthSquared(DVec3(m[2])));
+}
+
+float largest(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+Normal3 unitNormal(const Transform& t, const Normal3& n) {
+  return Normal3(glm::normalize(t.normal(DVec3(n))));
+}
+
+// Directions seen through an affine map M: w' = M w / |M w|. An element of solid angle grows by
+// |det M| / |M w|^3, so a density per solid angle is divided by that. It is 1 for rotations,
+// translations and uniform scales, whatever their size.
+class PlacedSampler final : public AreaSampler {
+ public:
+  PlacedSampler(const AreaSampler& sampler, const Transform& toRender, bool reverse)
+      : sampler_(sampler),
+        toRender_(toRender),
+        toObject_(toRender.inverse()),
+        determinant_(std::abs(glm::determinant(glm::dmat3(toRender.matrix())))),
+        stretch_(stretch(toRender)),
+        reverse_(reverse) {}
+
+  // Exact for similar maps; otherwise as if the map stretched alike in all directions.
+  double area() const override {
+    const double scale = std::cbrt(determinant_);
+    return sampler_.area() * scale * scale;
+  }
+
+  AreaSample sample(const DPoint3& from, Point2 u) const override {
+    const DPoint3 origin = toObject_.point(from);
+    AreaSample s = sampler_.sample(origin, u);
+    if (s.pdf == 0) return s;
+    s.pdf *= densityFactor(s.p - origin);
+    s.p = toRender_.point(s.p);
+    s.n = unitNormal(toRender_, s.n) * (reverse_ ? -1.F : 1.F);
+    s.error *= stretch_;
+    return s;
+  }
+
+  float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
+    const DPoint3 origin = toObject_.point(from), point = toObject_.point(p);
+    // Normals go back by the transpose of the map that brought them here.
+    return sampler_.pdf(origin, point, unitNormal(toObject_, reverse_ ? -n : n)) *
+           densityFactor(point - origin);
+  }
+
+  bool mayHit(const DPoint3& from, const DVec3& w) const override {
+    return sampler_.mayHit(toObject_.point(from), toObject_.vector(w));
+  }
+
+ private:
+  float densityFactor(const DVec3& w) const {
+    const double l = std::sqrt(lengthSquared(toRender_.vector(w)) / lengthSquared(w));
+    return static_cast<float>(l * l * l / determinant_);
+  }
+
+  const AreaSampler& sampler_;
+  Transform toRender_, toObject_;
+  double determinant_;
+  double stretch_;
+  bool reverse_;
+};
+
+}  // namespace
+
+SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, bool reverse,
+                                 const Ray& ray, const ShapeHit& hit) {
+  const SurfacePoint o = shape.surface(toRender.inverse().ray(ray), hit);
+  SurfaceInteraction s;
+  s.p = Point3(toRender.point(o.p));
+  // Rounding to float moves the point by half an ulp in each coordinate, and the next ray's own
+  // arithmetic starts from it.
+  s.error = static_cast<float>(o.error * stretch(toRender)) + gammaBound(3) * largest(s.p);
+  const float side = reverse ? -1 : 1;
+  s.n = unitNormal(toRender, o.n) * side;
+  s.ns = o.ns == Normal3(0) ? s.n : unitNormal(toRender, o.ns) * side;
+  s.uv = o.uv;
+  s.dpdu = Vec3(toRender.vector(DVec3(o.dpdu)));
+  s.dpdv = Vec3(toRender.vector(DVec3(o.dpdv)));
+  s.dndu = Normal3(toRender.normal(DVec3(o.dndu))) * side;
+  s.dndv = Normal3(toRender.normal(DVec3(o.dndv))) * side;
+  s.tangent = s.dpdu;
+  return s;
+}
+
+void transformInteraction(SurfaceInteraction& s, const Transform& t) {
+  s.p = Point3(t.point(DPoint3(s.p)));
+  s.error = static_cast<float>(s.error * stretch(t)) + gammaBound(3) * largest(s.p);
+  s.n = unitNormal(t, s.n);
+  s.ns = unitNormal(t, s.ns);
+  s.dpdu = Vec3(t.vector(DVec3(s.dpdu)));
+  s.dpdv = Vec3(t.vector(DVec3(s.dpdv)));
+  s.dndu = Normal3(t.normal(DVec3(s.dndu)));
+  s.dndv = Normal3(t.normal(DVec3(s.dndv)));
+  s.tangent = Vec3(t.vector(DVec3(s.tangent)));
+}
+
+std::unique_ptr<AreaSampler> placedSampler(const AreaSampler& sampler, const Transform& toRender,
+                                           bool reverse) {
+  return std::make_unique<PlacedSampler>(sampler, toRender, reverse);
+}
+
+}  // namespace pbrt

@@ -1,0 +1,22 @@
+#pragma once
+// Shapes in place: from a shape's object space to the space of its scene.
+
+#include <memory>
+
+#include "core/api/shape.h"
+
+namespace pbrt {
+
+// The point that a hit of a render-space ray names; `reverse` turns the normals. Everything that
+// depends on space is set.
+SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, bool reverse,
+                                 const Ray& ray, const ShapeHit& hit);
+
+// Carries points, directions and derivatives of an interaction to another space.
+void transformInteraction(SurfaceInteraction& s, const Transform& t);
+
+// A shape's sampler in another space.
+std::unique_ptr<AreaSampler> placedSampler(const AreaSampler& sampler, const Transform& toRender,
+                                           bool reverse);
+
+}  // namespace pbrt

@@ -1,0 +1,114 @@
+#include "core/scene/render.h"
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <array>
+
+#include "core/scene/accel.h"
+
+namespace pbrt {
+
+namespace {
+
+// Camera rays are traced in packets of 4 x 4 neighbouring pixels.
+constexpr int kGroup = 4;
+constexpr int kBatch = kGroup * kGroup;
+static_assert(kBatch == World::kBatch);
+
+// What one thread works with.
+struct Worker {
+  explicit Worker(const Sampler& prototype) {
+    for (auto& sampler : samplers) sampler = prototype.clone();
+  }
+
+  // One sampler for each ray of a packet: they are all in the middle of their sample at once.
+  std::array<std::unique_ptr<Sampler>, kBatch> samplers;
+  std::array<CameraSample, kBatch> samples;
+  std::array<CameraRay, kBatch> cameraRays;
+  std::array<const Ray*, kBatch> rays{};
+  std::array<Hit, kBatch> hits;
+  std::array<std::byte, 1 << 14> memory;
+  Scratch scratch{memory.data(), memory.size()};
+};
+
+struct TileJob {
+  const SamplingIntegrator& integrator;
+  const World& world;
+  Film& film;
+  RenderControl& control;
+  float differentialScale;
+
+  void render(int tile, Worker& worker) const {
+    const Bounds2i pixels = film.tilePixels(tile);
+    // Sample by sample, not pixel by pixel: the sums grow in the same order when the samples come
+    // in several passes.
+    for (std::uint32_t s = control.firstSample; s < control.endSample; ++s)
+      for (int y = pixels.lo.y; y < pixels.hi.y; y += kGroup)
+        for (int x = pixels.lo.x; x < pixels.hi.x; x += kGroup)
+          renderGroup(tile, intersect(pixels, {{x, y}, {x + kGroup, y + kGroup}}), s, worker);
+  }
+
+  void renderGroup(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
+    int n = 0;
+    for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
+      for (int x = pixels.lo.x; x < pixels.hi.x; ++x, ++n) {
+        Sampler& sampler = *worker.samplers[n];
+        sampler.start({x, y}, index);
+        CameraSample& sample = worker.samples[n];
+        sample.film = Point2(x, y) + sampler.pixel2D();
+        sample.lens = sampler.get2D();
+        sample.time = sampler.get1D();
+        worker.cameraRays[n] = world.camera().generate(sample, world.filters());
+        if (world.filters()) worker.cameraRays[n].ray.scaleDifferentials(differentialScale);
+        worker.rays[n] = &worker.cameraRays[n].ray;
+      }
+    const auto count = static_cast<std::size_t>(n);
+    world.intersect({worker.rays.data(), count}, {worker.hits.data(), count});
+    for (int i = 0; i < n; ++i) {
+      const CameraRay& camera = worker.cameraRays[i];
+      const Hit& hit = worker.hits[i];
+      Spectrum L(0);
+      if (camera.weight > 0) {
+        L = camera.weight *
+            integrator.Li(world, camera.ray, hit, *worker.samplers[i], worker.scratch);
+        worker.scratch.release();
+        if (!isFinite(L)) {
+          L = Spectrum(0);
+          control.badSamples.fetch_add(1, std::memory_order_relaxed);
+        }
+      }
+      film.add(tile, worker.samples[i].film, L, hit.found() ? 1 : 0);
+    }
+  }
+};
+
+}  // namespace
+
+void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film& film,
+                                RenderControl& control) const {
+  // A pixel's samples share its area: each stands for 1 / n of it.
+  const float scale = 1 / std::sqrt(static_cast<float>(sampler.samplesPerPixel()));
+  const TileJob job{*this, world, film, control, scale};
+  const int threads = control.threads > 0 ? control.threads : tbb::info::default_concurrency();
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  tbb::task_arena arena(threads);
+  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler); });
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<int>(0, film.tiles(), 1),
+        [&](const tbb::blocked_range<int>& range) {
+          for (int tile = range.begin(); tile < range.end(); ++tile) {
+            if (control.stop) return;
+            job.render(tile, workers.local());
+            control.rays += Accel::takeRayCount();
+            ++control.tilesDone;
+          }
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+}  // namespace pbrt

@@ -1,0 +1,93 @@
+#include "core/scene/scene.h"
+
+#include "core/scene/mesh.h"
+#include "core/scene/placement.h"
+
+namespace pbrt {
+
+namespace {
+
+// The footprint of a pixel on the tangent plane: the neighbouring rays cut the plane in p + dpdx
+// and p + dpdy; du and dv follow by least squares from dpdx = dpdu dudx + dpdv dvdx (Igehy 1999).
+void setFootprint(SurfaceInteraction& s, const RayDifferential& ray) {
+  const auto onPlane = [&](const Point3& o, const Vec3& d) {
+    const float along = glm::dot(s.n, d);
+    return along == 0 ? Vec3(0) : o + d * (glm::dot(s.n, s.p - o) / along) - s.p;
+  };
+  s.dpdx = onPlane(ray.rxOrigin, ray.rxDirection);
+  s.dpdy = onPlane(ray.ryOrigin, ray.ryDirection);
+  const float uu = lengthSquared(s.dpdu), uv = glm::dot(s.dpdu, s.dpdv), vv = lengthSquared(s.dpdv);
+  const float determinant = uu * vv - uv * uv;
+  const float inverse = determinant > 0 ? 1 / determinant : 0;
+  const auto solve = [&](const Vec3& dp, float& du, float& dv) {
+    const float a = glm::dot(s.dpdu, dp), b = glm::dot(s.dpdv, dp);
+    du = (vv * a - uv * b) * inverse;
+    dv = (uu * b - uv * a) * inverse;
+    // Near an edge seen from the side the footprint has no end.
+    du = std::isfinite(du) ? std::clamp(du, -1e8F, 1e8F) : 0;
+    dv = std::isfinite(dv) ? std::clamp(dv, -1e8F, 1e8F) : 0;
+  };
+  solve(s.dpdx, s.dudx, s.dvdx);
+  solve(s.dpdy, s.dudy, s.dvdy);
+}
+
+// Blinn 1978: the surface p + d n has, for small slopes, dp'/du = dp/du + (dd/du) n + d dn/du,
+// and its normal is their cross product. The slopes are differences over half a pixel.
+void bump(SurfaceInteraction& s, const Textured<float>& d) {
+  const auto step = [](float dx, float dy) {
+    const float half = 0.5F * (std::abs(dx) + std::abs(dy));
+    return half > 0 ? half : 0.0005F;
+  };
+  const float du = step(s.dudx, s.dudy), dv = step(s.dvdx, s.dvdy);
+  const auto displaced = [&](const Vec3& dp, Point2 duv, const Normal3& dn, float h) {
+    SurfaceInteraction moved = s;
+    moved.p = s.p + h * dp;
+    moved.uv = s.uv + h * duv;
+    moved.ns = s.ns + h * dn;
+    return d(moved);
+  };
+  const float here = d(s);
+  const float slopeU = (displaced(s.dpdu, {1, 0}, s.dndu, du) - here) / du;
+  const float slopeV = (displaced(s.dpdv, {0, 1}, s.dndv, dv) - here) / dv;
+  const Vec3 dpdu = s.dpdu + slopeU * s.ns + here * s.dndu;
+  const Vec3 dpdv = s.dpdv + slopeV * s.ns + here * s.dndv;
+  const Vec3 n = glm::cross(dpdu, dpdv);
+  if (const float l2 = lengthSquared(n); l2 > 0 && std::isfinite(l2)) {
+    s.ns = faceForward(n / std::sqrt(l2), s.ns);
+    s.tangent = dpdu;
+  }
+}
+
+}  // namespace
+
+SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) const {
+  const Instance* instance =
+      hit.instance == Hit::kNone ? nullptr : &instances_[hit.instance - root_.geometries.size()];
+  const Group& group = instance ? *instance->group : root_;
+  const Geometry& g = *group.geometries[hit.geometry];
+
+  SurfaceInteraction s;
+  if (g.mesh) {
+    s = meshSurface(*g.mesh, hit, g.flip, g.reverse);
+    if (instance) transformInteraction(s, instance->toRender);
+  } else {
+    const ShapeHit shapeHit{hit.t, hit.u, hit.v, hit.primitive};
+    s = placedSurface(*g.shape, instance ? instance->toRender * g.toGroup : g.toGroup, g.reverse,
+                      ray, shapeHit);
+  }
+  s.wo = -glm::normalize(ray.d);
+  s.time = ray.time;
+  s.material = g.material.get();
+  s.light = g.light.get();
+  if (ray.hasDifferentials) setFootprint(s, ray);
+  return s;
+}
+
+Bsdf Scene::bsdf(SurfaceInteraction& at, Scratch& scratch) const {
+  if (const Textured<float>* height = at.material->bumpMap()) bump(at, *height);
+  Bsdf bsdf(at);
+  at.material->scatter(at, bsdf, scratch);
+  return bsdf;
+}
+
+}  // namespace pbrt

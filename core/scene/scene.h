@@ -1,0 +1,81 @@
+#pragma once
+// A scene that is ready to be rendered: owns everything, and answers integrators.
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/api/integrator.h"
+#include "core/api/material.h"
+#include "core/scene/accel.h"
+#include "core/scene/film.h"
+
+namespace pbrt {
+
+// One shape in its place.
+struct Geometry {
+  std::unique_ptr<Shape> shape;
+  TriangleMesh* mesh = nullptr;  // the shape's, moved into the space of its group; else null
+  Transform toGroup;             // from object space; identity for meshes
+  bool reverse = false;          // ReverseOrientation
+  bool flip = false;             // whether the winding's normal points inward
+  std::shared_ptr<const Material> material;  // null: no surface to shade
+  std::unique_ptr<AreaSampler> sampler;      // of an area light
+  std::unique_ptr<Light> light;              // the area light that it is; else null
+};
+
+// Geometries that share a space and a tree: the scene itself, or an object for instancing.
+struct Group {
+  explicit Group(const AccelDevice& device) : accel(device) {}
+  std::vector<std::unique_ptr<Geometry>> geometries;  // by Hit::geometry
+  Accel accel;
+};
+
+struct Instance {
+  const Group* group;
+  Transform toRender;
+};
+
+class Scene final : public World {
+ public:
+  explicit Scene(int threads) : device_(threads), root_(device_) {}
+
+  Hit intersect(const Ray& ray) const override { return root_.accel.intersect(ray); }
+  bool occluded(const Ray& ray) const override { return root_.accel.occluded(ray); }
+  void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const override {
+    root_.accel.intersect(rays, hits);
+  }
+  std::uint32_t occluded(std::span<const Ray> rays) const override {
+    return root_.accel.occluded(rays);
+  }
+  SurfaceInteraction surface(const RayDifferential& ray, const Hit& hit) const override;
+  Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const override;
+
+  const Integrator& integrator() const { return *integrator_; }
+  const Sampler& sampler() const { return *sampler_; }
+  Film& film() { return *film_; }
+  const std::string& outputFile() const { return outputFile_; }
+  // What the picture should say about itself: worldToCamera, worldToNDC.
+  const std::map<std::string, Attribute>& attributes() const { return attributes_; }
+  std::size_t shapes() const { return shapes_; }
+
+ private:
+  friend class SceneBuilder;
+
+  AccelDevice device_;  // before the trees, which it must outlive
+  std::vector<std::unique_ptr<Group>> objects_;
+  Group root_;
+  std::vector<Instance> instances_;  // geometries of the root tree after its own
+  std::vector<std::unique_ptr<Light>> ownLights_;
+  std::unique_ptr<Camera> ownCamera_;
+  std::unique_ptr<Filter> filter_;
+  std::unique_ptr<Sampler> sampler_;
+  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<Film> film_;
+  std::string outputFile_;
+  std::map<std::string, Attribute> attributes_;
+  std::size_t shapes_ = 0;
+};
+
+}  // namespace pbrt

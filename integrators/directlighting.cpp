@@ -1,0 +1,126 @@
+// Direct lighting by multiple importance sampling, with perfect reflection and refraction.
+
+#include "core/api/direct.h"
+#include "core/api/integrator.h"
+#include "core/api/specular.h"
+#include "core/plugin/plugin.h"
+
+namespace pbrt {
+namespace {
+
+// The weight of a sample with density a of a strategy, where the other one has density b
+// (Veach 1997, power heuristic with exponent 2).
+float powerHeuristic(float a, float b) {
+  const float r = b / a;
+  return 1 / (1 + r * r);
+}
+
+class DirectLighting final : public SamplingIntegrator {
+ public:
+  static constexpr int kMostSamples = 64;  // of one light at one point, at a time
+  static constexpr std::string_view kStrategies[] = {"all", "one"};
+
+  explicit DirectLighting(Params& p)
+      : maxDepth_(p.integer("maxdepth", 5, 0, 1000, "longest chain of mirrors and glass")),
+        all_(p.choice("strategy", kStrategies, "all",
+                      "sample all lights, or one that is chosen at random") == "all") {}
+
+  Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
+              Scratch& scratch) const override {
+    return Li(world, ray, hit, sampler, scratch, 0);
+  }
+
+ private:
+  Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
+              Scratch& scratch, int depth) const {
+    if (!hit.found()) return world.escaped(glm::normalize(ray.d));
+    SurfaceInteraction at = world.surface(ray, hit);
+    const Bsdf bsdf = world.bsdf(at, scratch);
+
+    Spectrum L = at.light ? at.light->emitted(at.p, at.n, at.wo) : Spectrum(0);
+    if (bsdf.has(kDiffuse | kGlossy) && !world.lights().empty()) {
+      if (all_) {
+        for (const Light* light : world.lights())
+          L += fromLight(world, *light, light->samples(), at, bsdf, sampler);
+      } else {
+        const auto n = world.lights().size();
+        const auto i = static_cast<std::size_t>(sampler.get1D() * static_cast<float>(n));
+        L += static_cast<float>(n) *
+             fromLight(world, *world.lights()[std::min(i, n - 1)], 1, at, bsdf, sampler);
+      }
+    }
+    if (depth + 1 < maxDepth_)
+      L += specularLight(world, ray, at, bsdf, sampler,
+                         [&](const RayDifferential& next, const Hit& nextHit) {
+                           return Li(world, next, nextHit, sampler, scratch, depth + 1);
+                         });
+    return L;
+  }
+
+  // The mean of n samples of one light, each strategy having n.
+  static Spectrum fromLight(const World& world, const Light& light, int n,
+                            const SurfaceInteraction& at, const Bsdf& bsdf, Sampler& sampler) {
+    std::array<Point2, kMostSamples> points;
+    Spectrum sum(0);
+    for (int done = 0; done < n; done += kMostSamples) {
+      const std::span<Point2> u(points.data(),
+                                static_cast<std::size_t>(std::min(n - done, kMostSamples)));
+      sampler.get2D(u);
+      sum += byLight(world, light, at, bsdf, u);
+      if (light.isDelta()) continue;
+      sampler.get2D(u);
+      sum += byBsdf(world, light, at, bsdf, u);
+    }
+    return sum / static_cast<float>(n);
+  }
+
+  static Spectrum byLight(const World& world, const Light& light, const SurfaceInteraction& at,
+                          const Bsdf& bsdf, std::span<const Point2> points) {
+    ShadowedSum direct(world);
+    for (const Point2& u : points) {
+      const LightSample s = light.sample(at.p, u);
+      if (s.pdf == 0 || isBlack(s.L)) continue;
+      const Spectrum f = bsdf.f(at.wo, s.wi);
+      if (isBlack(f)) continue;
+      const float weight = light.isDelta() ? 1 : powerHeuristic(s.pdf, bsdf.pdf(at.wo, s.wi));
+      direct.add(shadowRay(at, s), f * s.L * (std::abs(glm::dot(s.wi, at.ns)) * weight / s.pdf));
+    }
+    return direct.sum();
+  }
+
+  static Spectrum byBsdf(const World& world, const Light& light, const SurfaceInteraction& at,
+                         const Bsdf& bsdf, std::span<const Point2> points) {
+    Spectrum sum(0);
+    for (const Point2& u : points) {
+      const auto s = bsdf.sample(at.wo, u, kAllLobes & ~kSpecular);
+      if (!s || isBlack(s->f)) continue;
+      if (!light.isInfinite() && !light.mayHit(at.p, s->wi)) continue;
+      const RayDifferential ray(spawnRay(at, s->wi));
+      const Hit hit = world.intersect(ray);
+      Spectrum L(0);
+      float lightPdf = 0;
+      if (hit.found()) {
+        const SurfaceInteraction on = world.surface(ray, hit);
+        if (on.light != &light) continue;
+        L = light.emitted(on.p, on.n, on.wo);
+        lightPdf = light.pdf(at.p, on);
+      } else if (light.isInfinite()) {
+        L = light.escaped(s->wi);
+        lightPdf = light.pdfEscaped(s->wi);
+      }
+      if (!isBlack(L))
+        sum += s->f * L *
+               (std::abs(glm::dot(s->wi, at.ns)) * powerHeuristic(s->pdf, lightPdf) / s->pdf);
+    }
+    return sum;
+  }
+
+  int maxDepth_;
+  bool all_;
+};
+
+}  // namespace
+}  // namespace pbrt
+
+PBRT_PLUGIN(Integrator, pbrt::DirectLighting, "directlighting",
+            "light from the lights by multiple importance sampling, mirror images and refraction")

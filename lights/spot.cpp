@@ -1,0 +1,58 @@
+#include "core/plugin/plugin.h"
+
+namespace pbrt {
+
+class Spot final : public Light {
+ public:
+  Spot(Params& p, const Setup& setup)
+      : intensity_(p.spectrum("I", Spectrum(1), "radiant intensity along the axis")),
+        toLight_(setup.toRender.inverseMatrix()) {
+    intensity_ *= p.spectrum("scale", Spectrum(1), "multiplies I");
+    const float cone =
+        p.inRange("coneangle", 30, 0, 180, "from the axis to where the light ends", "degrees");
+    if (cone == 0) p.fail("coneangle", "must be above 0");
+    const float delta = p.inRange("conedeltaangle", std::min(5.F, cone), 0, cone,
+                                  "width of the soft edge, inside the cone", "degrees");
+    cosEnd_ = std::cos(radians(cone));
+    cosStart_ = std::cos(radians(cone - delta));
+
+    const Point3 from = p.point("from", Point3(0), "where it is");
+    const Vec3 axis = p.point("to", {0, 0, 1}, "a point that it is aimed at") - from;
+    if (!(lengthSquared(axis) > 0)) p.fail("to", "must not be the same point as \"from\"");
+    axis_ = glm::normalize(axis);
+    position_ = setup.toRender.point(from);
+  }
+
+  LightSample sample(const Point3& p, Point2 /*u*/) const override {
+    LightSample s;
+    const Vec3 w = p - position_;
+    const float d2 = lengthSquared(w);
+    const float share = falloff(w);
+    if (!(d2 > 0) || share == 0) return s;
+    s.L = intensity_ * (share / d2);
+    s.wi = -w / std::sqrt(d2);
+    s.p = position_;
+    s.pdf = 1;
+    return s;
+  }
+
+ private:
+  // From 1 inside the soft edge to 0 at the end of the cone, by the fourth power of how far the
+  // cosine has come. The angle is that of light space.
+  float falloff(const Vec3& w) const {
+    const float c = glm::dot(axis_, glm::normalize(toLight_ * w));
+    if (!(c > cosEnd_)) return 0;
+    if (c >= cosStart_) return 1;
+    return sqr(sqr((c - cosEnd_) / (cosStart_ - cosEnd_)));
+  }
+
+  Spectrum intensity_;
+  glm::mat3 toLight_;
+  Vec3 axis_{};  // unit, in light space
+  Point3 position_{};
+  float cosStart_ = 1, cosEnd_ = 1;
+};
+
+}  // namespace pbrt
+
+PBRT_PLUGIN(Light, pbrt::Spot, "spot", "a point that shines into a cone with a soft edge")

@@ -1,0 +1,53 @@
+#include "core/api/lobes.h"
+#include "core/plugin/plugin.h"
+
+namespace pbrt {
+
+class Plastic final : public Material {
+ public:
+  explicit Plastic(Params& p)
+      : kd_(p.spectrumTexture("Kd", Spectrum(0.25F), "diffuse reflectance")),
+        ks_(p.spectrumTexture("Ks", Spectrum(0.25F), "scales the glossy reflection")),
+        roughness_(p.floatTexture("roughness", 0.1F, "0 is the sharpest highlight")),
+        remap_(p.flag("remaproughness", true,
+                      "roughness is from 0 to 1, not the distribution's own alpha "
+                      "(trowbridgereitz)")),
+        bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {
+    constexpr std::string_view kinds[] = {"trowbridgereitz", "blinn"};
+    blinn_ = p.choice("distribution", kinds, kinds[0],
+                      "of the facets' normals; blinn has the exponent 1 / roughness") == "blinn";
+  }
+
+  void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
+    const Spectrum kd = glm::max(kd_(at), 0.F), ks = glm::max(ks_(at), 0.F);
+    if (!isBlack(kd)) bsdf.add(place<Lambertian>(scratch, kd));
+    if (isBlack(ks)) return;
+    // pbrt-v1 to v3 take the denser medium for the incident side, so that the facets reflect
+    // totally beyond the critical angle; pictures of plastic agree with theirs only so.
+    constexpr DielectricFresnel fresnel{1 / 1.5F};
+    const float roughness = roughness_(at);
+    if (blinn_) {
+      using Lobe = MicrofacetReflection<Blinn, DielectricFresnel>;
+      bsdf.add(place<Lobe>(scratch, ks, Blinn(roughness), fresnel));
+    } else {
+      using Lobe = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
+      const float alpha = remap_ ? TrowbridgeReitz::alpha(roughness) : roughness;
+      bsdf.add(place<Lobe>(scratch, ks, TrowbridgeReitz(alpha, alpha), fresnel));
+    }
+  }
+  bool filters() const override {
+    return kd_.filters() || ks_.filters() || roughness_.filters() || (bump_ && bump_->filters());
+  }
+  const Textured<float>* bumpMap() const override { return bump_ ? &*bump_ : nullptr; }
+
+ private:
+  Textured<Spectrum> kd_, ks_;
+  Textured<float> roughness_;
+  bool remap_;
+  std::optional<Textured<float>> bump_;
+  bool blinn_;
+};
+
+}  // namespace pbrt
+
+PBRT_PLUGIN(Material, pbrt::Plastic, "plastic", "a diffuse surface under a glossy coat")

@@ -1,0 +1,118 @@
+// How fast rays meet metaballs: through the ray tree and the plug-in's shape, one ray at a time.
+// Counters: rays per second, cells, and per ray the evaluations of the field over an interval and
+// at a point, counted over all cells whose box the ray meets up to its first crossing.
+
+#include <benchmark/benchmark.h>
+
+#include "core/base/rng.h"
+#include "core/scene/accel.h"
+#include "shapes/metaballs/roots.h"
+
+namespace pbrt::metaballs {
+namespace {
+
+// `count` atoms of radius 1 in a ball, about 12 supports over every interior point; f = 0 is where
+// a lone atom's field of the wyvill kernel falls to a half.
+Field ballOfAtoms(int count, Kernel kernel) {
+  Rng rng(7);
+  std::vector<Atom> atoms;
+  const float extent = std::cbrt(static_cast<float>(count) / 12);
+  while (std::ssize(atoms) < count) {
+    const Vec3 p = 2.F * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.F;
+    if (lengthSquared(p) > 1) continue;
+    atoms.push_back({extent * p, 1, 1, scale(kernel, 1) / (kernel == Kernel::poly6 ? 0.78 : 0.5)});
+  }
+  return {kernel, atoms};
+}
+
+// The part of the plug-in that rays see.
+class CellShape final : public Shape {
+ public:
+  explicit CellShape(const Field& field) : field_(field), cells_(field) {}
+  std::uint32_t primitives() const override {
+    return static_cast<std::uint32_t>(cells_.cells().size());
+  }
+  Bounds3 bounds(std::uint32_t i) const override { return cells_.cells()[i].box; }
+  std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t i) const override {
+    const Cell& cell = cells_.cells()[i];
+    const auto t = firstCrossing(field_, cell, cells_.atoms(cell), ray, &effort);
+    if (!t || static_cast<float>(*t) > ray.tMax) return {};
+    return ShapeHit{static_cast<float>(*t), 0, 0, i};
+  }
+  bool occluded(const ObjectRay& ray, std::uint32_t i) const override {
+    const Cell& cell = cells_.cells()[i];
+    return crosses(field_, cell, cells_.atoms(cell), ray);
+  }
+  SurfacePoint surface(const ObjectRay&, const ShapeHit&) const override { return {}; }
+  double atomsPerCell() const {
+    double sum = 0;
+    for (const Cell& cell : cells_.cells()) sum += cell.count;
+    return sum / static_cast<double>(cells_.cells().size());
+  }
+
+  mutable Effort effort;
+
+ private:
+  const Field& field_;
+  Cells cells_;
+};
+
+// Rays from all around towards points of the ball that the atoms fill.
+std::vector<Ray> someRays(float extent) {
+  Rng rng(11);
+  std::vector<Ray> rays;
+  const auto inBall = [&rng] {
+    Vec3 p;
+    do p = 2.F * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.F;
+    while (lengthSquared(p) > 1);
+    return p;
+  };
+  for (int i = 0; i < 1 << 14; ++i) {
+    const Point3 from = 4 * extent * glm::normalize(inBall()), to = extent * inBall();
+    rays.push_back({from, 0, glm::normalize(to - from)});
+  }
+  return rays;
+}
+
+template <bool Occlusion>
+void trace(benchmark::State& state) {
+  const int count = static_cast<int>(state.range(0));
+  const Field field = ballOfAtoms(count, static_cast<Kernel>(state.range(1)));
+  const CellShape shape(field);
+  const AccelDevice device(1);
+  Accel tree(device);
+  tree.add(shape, Transform());
+  tree.build();
+  const std::vector<Ray> rays = someRays(1 + std::cbrt(static_cast<float>(count) / 12));
+  std::size_t i = 0, hits = 0;
+  for (auto _ : state) {
+    const Ray& ray = rays[i++ % rays.size()];
+    hits += Occlusion ? tree.occluded(ray) : tree.intersect(ray).found();
+  }
+  const auto perRay = [&](std::size_t n) {
+    return benchmark::Counter(static_cast<double>(n), benchmark::Counter::kAvgIterations);
+  };
+  state.counters["rays"] =
+      benchmark::Counter(static_cast<double>(i), benchmark::Counter::kIsRate);
+  state.counters["hits"] = perRay(hits);
+  state.counters["cells"] = shape.primitives();
+  state.counters["atoms/cell"] = shape.atomsPerCell();
+  if (!Occlusion) {
+    state.counters["intervals"] = perRay(shape.effort.intervals);
+    state.counters["points"] = perRay(shape.effort.points);
+  }
+}
+
+void build(benchmark::State& state) {
+  const Field field = ballOfAtoms(static_cast<int>(state.range(0)), Kernel::poly6);
+  for (auto _ : state) benchmark::DoNotOptimize(Cells(field).cells().size());
+}
+
+BENCHMARK(trace<false>)->Name("first")->ArgsProduct({{1, 12, 300}, {0, 2, 3}});
+BENCHMARK(trace<true>)->Name("any")->ArgsProduct({{12, 300}, {0}});
+BENCHMARK(build)->Arg(12)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace pbrt::metaballs
+
+BENCHMARK_MAIN();

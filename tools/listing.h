@@ -1,0 +1,16 @@
+#pragma once
+// What pbrt says about its plug-ins.
+
+#include <string>
+
+#include "core/plugin/loader.h"
+
+namespace pbrt {
+
+// All plug-ins that can be opened, by kind, with a sentence each (--list-plugins).
+std::string listPlugins(PluginLoader& loader);
+
+// One plug-in with its parameters (--describe KIND NAME). Throws Error.
+std::string describePlugin(PluginLoader& loader, const std::string& kind, const std::string& name);
+
+}  // namespace pbrt
