@@ -55,8 +55,8 @@ class Sphere final : public Shape, public AreaSampler {
     return {r_ * n, 1e-15 * r_, n, pdf(from, r_ * n, n)};
   }
   float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
-    return seenInCone(from) ? uniformConePdf(sphereConeHeight(from, r_))
-                            : uniformAreaPdf(from, p, n, area());
+    if (!seenInCone(from)) return uniformAreaPdf(from, p, n, area());
+    return glm::dot(from - p, DVec3(n)) > 0 ? uniformConePdf(sphereConeHeight(from, r_)) : 0;
   }
   bool mayHit(const DPoint3& from, const DVec3& w) const override {
     return intersect({from, w}, 0).has_value();

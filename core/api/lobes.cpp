@@ -17,7 +17,7 @@ OrenNayar::OrenNayar(const Spectrum& reflectance, float sigma)
 // normal and beta the smaller: the sines of both stand in the dot product of the horizontal parts.
 Spectrum OrenNayar::f(const Vec3& wo, const Vec3& wi) const {
   const float horizontal = std::max(0.F, wo.x * wi.x + wo.y * wi.y);
-  const float cosBeta = std::max(std::max(absCosTheta(wo), absCosTheta(wi)), 1e-6F);
+  const float cosBeta = std::max(std::max(absCosTheta(wo), absCosTheta(wi)), kMinCosine);
   return f_ * (a_ + b_ * horizontal / cosBeta);
 }
 
@@ -32,8 +32,9 @@ float SpecularTransmission::pdf(const Vec3& /*wo*/, const Vec3& /*wi*/) const {
 // Snell's law, in the form of fresnelDielectric().
 std::optional<BsdfSample> SpecularTransmission::sample(const Vec3& wo, Point2 /*u*/) const {
   const float eta = wo.z > 0 ? eta_ : 1 / eta_;
-  const float t2 = (eta - 1) * (eta + 1) + cos2Theta(wo);
-  if (!(t2 > 0) || wo.z == 0) return {};
+  const float t2 = absCosTheta(wo) < 0.7F ? (eta - 1) * (eta + 1) + cos2Theta(wo)
+                                          : eta * eta - (wo.x * wo.x + wo.y * wo.y);
+  if (!(t2 > 0) || absCosTheta(wo) < kMinCosine) return {};
   const float cosT = std::sqrt(t2) / eta;
   BsdfSample s;
   s.wi = {-wo.x / eta, -wo.y / eta, wo.z > 0 ? -cosT : cosT};

@@ -7,6 +7,10 @@
 
 namespace pbrt {
 
+// Directions closer to the surface than this do not scatter: the model's values, which grow with
+// 1 / cos, stay finite.
+inline constexpr float kMinCosine = 1e-6F;
+
 // Equal radiance into all directions.
 class Lambertian final : public Bxdf {
  public:
@@ -39,7 +43,7 @@ class SpecularReflection final : public Bxdf {
   Spectrum f(const Vec3&, const Vec3&) const override { return Spectrum(0); }
   float pdf(const Vec3&, const Vec3&) const override { return 0; }
   std::optional<BsdfSample> sample(const Vec3& wo, Point2) const override {
-    if (wo.z == 0) return {};
+    if (absCosTheta(wo) < kMinCosine) return {};
     return BsdfSample{fresnel_(wo.z) * reflectance_ / absCosTheta(wo), {-wo.x, -wo.y, wo.z}, 1};
   }
 
@@ -87,23 +91,22 @@ class MicrofacetReflection final : public Bxdf {
     return cosH > 0 ? distribution_.reflectedPdf(wo, cosH, distribution_.D(h)) : 0;
   }
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
-    if (wo.z == 0) return {};
+    if (absCosTheta(wo) < kMinCosine) return {};
     const Vec3 h = wo.z > 0 ? distribution_.sample(wo, u) : -distribution_.sample(-wo, u);
     const float cosH = glm::dot(wo, h);
     const Vec3 wi = 2 * cosH * h - wo;
-    if (!(cosH > 0) || !sameHemisphere(wo, wi)) return {};
+    if (!(cosH > 0) || !sameHemisphere(wo, wi) || absCosTheta(wi) < kMinCosine) return {};
     const float D = distribution_.D(h);
     return BsdfSample{value(wo, wi, h, cosH, D), wi, distribution_.reflectedPdf(wo, cosH, D)};
   }
 
  private:
   // The facet normal that mirrors one direction into the other, and its cosine with them, which
-  // for unit directions is |wo + wi| / 2; zero if there is none, or a direction lies in the
-  // surface.
+  // for unit directions is |wo + wi| / 2; zero if there is none.
   static float halfVector(const Vec3& wo, const Vec3& wi, Vec3& h) {
     h = wo + wi;
     const float length = std::sqrt(lengthSquared(h));
-    if (!(length > 0) || wo.z * wi.z == 0) return 0;
+    if (!(length > 0) || std::min(absCosTheta(wo), absCosTheta(wi)) < kMinCosine) return 0;
     h /= length;
     return 0.5F * length;
   }

@@ -81,7 +81,9 @@ class Mapping2D {
  public:
   using Kind = std::variant<UvMapping, SphericalMapping, CylindricalMapping, PlanarMapping>;
 
-  Mapping2D(Kind kind = UvMapping{}) : kind_(kind) {}  // NOLINT: any kind is a mapping
+  Mapping2D() = default;
+  template <class Map>
+  Mapping2D(const Map& map) : kind_(map) {}  // NOLINT: each of them is a mapping
   TexturePoint operator()(const SurfaceInteraction& at) const {
     return std::visit([&](const auto& map) { return map(at); }, kind_);
   }

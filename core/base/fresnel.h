@@ -8,12 +8,13 @@ namespace pbrt {
 // Between dielectrics. eta: index of refraction of the transmitted over the incident side, where
 // the incident side is the one with cosTheta > 0.
 //
-// With Snell's law (eta cos t)^2 = eta^2 - sin^2 i = (eta - 1)(eta + 1) + cos^2 i: written so,
-// equal indices give exactly no reflection, at every angle. Not positive: total reflection.
+// By Snell's law (eta cos t)^2 = eta^2 - sin^2 i. To lose no digits, it is written with the
+// smaller of sin^2 i and cos^2 i: equal indices give exactly no reflection at every angle, and a
+// great ratio gives the true critical angle. Not positive: total reflection.
 inline float fresnelDielectric(float cosTheta, float eta) {
   if (cosTheta < 0) eta = 1 / eta;
   const float c = std::abs(cosTheta);
-  const float t2 = (eta - 1) * (eta + 1) + c * c;
+  const float t2 = c < 0.7F ? (eta - 1) * (eta + 1) + c * c : eta * eta - (1 - c) * (1 + c);
   if (!(t2 > 0)) return 1;
   const float t = std::sqrt(t2);
   const float parallel = (eta * eta * c - t) / (eta * eta * c + t);

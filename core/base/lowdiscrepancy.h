@@ -45,20 +45,20 @@ constexpr std::uint32_t scaleBits(std::uint32_t bits, std::uint32_t n) {
   return static_cast<std::uint32_t>(std::uint64_t{bits} * n >> 32U);
 }
 
-// Element i of a random permutation of {0, ..., n - 1}; i < n. Bijections of the next power of
-// two are repeated until they land below n (Kensler 2013, "Correlated Multi-Jittered Sampling",
+// Element i of a random permutation of {0, ..., n - 1}; i < n. A bijection of the next power of
+// two is repeated until it lands below n (Kensler 2013, "Correlated Multi-Jittered Sampling",
 // section 5); a last rotation makes every element equally likely in every place.
 constexpr std::uint32_t permute(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
   const int bits = std::bit_width(n - 1);
   const std::uint32_t mask = (1U << (bits & 31)) - 1U;
-  const int shift = bits / 2 + 1;
-  const auto a = static_cast<std::uint32_t>(key);
-  const auto b = static_cast<std::uint32_t>(key >> 32U);
+  const int shift = (bits + 1) / 2;
   do {
-    i = (i ^ a) * (b | 1U) & mask;
-    i ^= i >> shift;
-    i = (i + (b >> 16U)) * (a >> 7U | 1U) & mask;
-    i ^= i >> shift;
+    std::uint64_t k = key;
+    for (int round = 0; round < 4; ++round) {
+      i = (i ^ static_cast<std::uint32_t>(k >> 32U)) * (static_cast<std::uint32_t>(k) | 1U) & mask;
+      i ^= i >> shift;
+      k = std::rotr(k, 13);
+    }
   } while (i >= n);
   i += scaleBits(static_cast<std::uint32_t>(key * 0x9e3779b97f4a7c15ULL >> 32U), n);
   return i >= n ? i - n : i;

@@ -1,7 +1,7 @@
 #pragma once
 // Distributions of microfacet normals h about the surface normal z, each with its masking.
 // D(h): density of facets, such that the integral of D(h) cos(h) over the hemisphere is 1.
-// masking(wo, wi, ...): G / (4 |cos o| |cos i|), which Torrance and Sparrow's model (1967)
+// masking(wo, wi, h, cosH): G / (4 |cos o| |cos i|), which Torrance and Sparrow's model (1967)
 //   multiplies with D and the Fresnel term; both cosines are non-zero.
 // sample(wo, u): a normal for wo in the upper hemisphere.
 // reflectedPdf(wo, cosH, D): solid-angle density of the direction that such a normal reflects wo

@@ -56,7 +56,8 @@ void Parser::text(std::string name, std::string text, const std::filesystem::pat
 }
 
 void Parser::parse(std::string name, std::string text, std::filesystem::path path) {
-  const Source& source = sources_.emplace_back(std::move(name), std::move(text));
+  sources_.push_back({std::move(name), std::move(text)});
+  const Source& source = sources_.back();
   open_.push_back(std::move(path));
   const std::shared_ptr<void> close(nullptr, [this](void*) { open_.pop_back(); });
 

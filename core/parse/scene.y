@@ -159,7 +159,7 @@ void SceneParser::report_syntax_error(const context& ctx) const {
                       found == symbol_kind::S_OPEN;
   const bool isName = found == symbol_kind::S_WORD;
   const bool isClose = found == symbol_kind::S_CLOSE;
-  const bool isEnd = found == symbol_kind::S_END;
+  const bool isEnd = found == symbol_kind::S_YYEOF;
   const bool nextStatement = isEnd || !(isItem || isName || isClose);
 
   if (expects(symbol_kind::S_CLOSE)) {

@@ -5,8 +5,9 @@
 namespace pbrt::metaballs {
 namespace {
 
-// Longest edge of a cell over the smallest support radius that reaches it.
-constexpr double kFineness = 0.5;
+// Longest edge of a cell over the smallest support radius that reaches it. Measured for 300 atoms:
+// twice as coarse, rays are 1.5 times slower; finer gains nothing.
+constexpr double kFineness = 0.35;
 // How far a cell reaches over the faces it shares, over its edge.
 constexpr double kOverlap = 0x1p-14;
 
@@ -94,8 +95,8 @@ void Cells::split(const Field& field, const Bounds3& box, AtomList parents) {
   const Bounds3 tight = shave(field, box, list);
   const std::vector<std::uint32_t> near = reaching(field, tight, list);
   if (!mayMeetSurface(field, tight, near)) return;
-  cells_.push_back({tight, static_cast<std::uint32_t>(atoms_.size()),
-                    static_cast<std::uint32_t>(near.size())});
+  cells_.push_back(
+      {tight, static_cast<std::uint32_t>(atoms_.size()), static_cast<std::uint32_t>(near.size())});
   atoms_.insert(atoms_.end(), near.begin(), near.end());
 }
 

@@ -21,7 +21,9 @@ class Cells {
   explicit Cells(const Field& field);
 
   std::span<const Cell> cells() const { return cells_; }
-  AtomList atoms(const Cell& cell) const { return AtomList(atoms_).subspan(cell.first, cell.count); }
+  AtomList atoms(const Cell& cell) const {
+    return AtomList(atoms_).subspan(cell.first, cell.count);
+  }
 
  private:
   void split(const Field& field, const Bounds3& box, AtomList parents);

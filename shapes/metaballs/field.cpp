@@ -57,8 +57,7 @@ Interval boundAs(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& 
   // atoms on opposite sides balance, this shrinks with the square of the box.
   const DPoint3 c = 0.5 * lo + 0.5 * hi;
   const Interval centre = rangeOver<K>(c, c, atoms, list).value;
-  const double swing =
-      glm::dot(box.steepest, glm::max(hi - c, c - lo)) * (1 + 8 * kEpsilon);
+  const double swing = glm::dot(box.steepest, glm::max(hi - c, c - lo)) * (1 + 8 * kEpsilon);
   return {std::max(box.value.lo, centre.lo - swing), std::min(box.value.hi, centre.hi + swing)};
 }
 

@@ -12,9 +12,9 @@ namespace pbrt::metaballs {
 
 struct Atom {
   Point3 centre{};
-  float radius = 1;         // of the support, h
+  float radius = 1;  // of the support, h
   double inverseRadius = 1;
-  double weight = 0;        // f of the atom is weight * K(r^2 / h^2)
+  double weight = 0;  // f of the atom is weight * K(r^2 / h^2)
 };
 
 // A set of atoms by their numbers.

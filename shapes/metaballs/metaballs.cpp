@@ -32,14 +32,12 @@ Field readField(Params& params) {
   const std::vector<float> radii =
       perAtom(params, "radius", centres.size(),
               "where an atom's field ends, for all atoms or for each (default 1)", "scene units");
-  const std::vector<float> strengths =
-      perAtom(params, "strength", centres.size(),
-              "scale of an atom's field, for all atoms or for each; negative carves (default 1)",
-              "");
+  const std::vector<float> strengths = perAtom(
+      params, "strength", centres.size(),
+      "scale of an atom's field, for all atoms or for each; negative carves (default 1)", "");
   const std::string name =
       params.choice("kernel", kKernels, kKernels[0], "how the field falls with the distance");
-  const auto kernel =
-      static_cast<Kernel>(std::ranges::find(kKernels, name) - kKernels.begin());
+  const auto kernel = static_cast<Kernel>(std::ranges::find(kKernels, name) - kKernels.begin());
 
   float largest = 0;
   for (std::size_t i = 0; i < centres.size(); ++i) {
@@ -50,8 +48,7 @@ Field readField(Params& params) {
                                            parameter, value, rule));
     };
     const Point3& c = centres[i];
-    for (int k = 0; k < 3; ++k)
-      check(std::isfinite(c[k]), "P", c[k], "a centre must be finite");
+    for (int k = 0; k < 3; ++k) check(std::isfinite(c[k]), "P", c[k], "a centre must be finite");
     check(std::isfinite(radii[i]) && radii[i] > 0, "radius", radii[i],
           "a support radius must be finite and greater than 0: a field over no space has no "
           "surface");
@@ -64,16 +61,18 @@ Field readField(Params& params) {
   // poly6 is a density: its values scale with 1 / h^3, and so does the default. A lone atom of
   // strength 1 is then a ball of 0.563 h whatever its h.
   const bool density = kernel == Kernel::poly6 && largest > 0;
-  const float fallback = density ? static_cast<float>(0.5 / std::pow(largest, 3.0)) : 0.5F;
-  const float threshold = params.number(
-      "threshold", fallback,
+  const double fallback = density ? 0.5 / std::pow(static_cast<double>(largest), 3) : 0.5;
+  const float given = params.number(
+      "threshold", static_cast<float>(fallback),
       "value of the field on the surface (poly6: the default is over the largest radius cubed)",
       kernel == Kernel::poly6 ? "per volume" : "");
+  const double threshold = params.has("threshold") ? given : fallback;
   if (!std::isfinite(threshold) || threshold <= 0)
-    params.fail("threshold", fmt::format("the threshold is {}, but it must be finite and greater "
-                                         "than 0: the field is 0 away from all atoms, so the inside "
-                                         "would have no end",
-                                         threshold));
+    params.fail("threshold",
+                fmt::format("the threshold is {}, but it must be finite and greater "
+                            "than 0: the field is 0 away from all atoms, so the inside "
+                            "would have no end",
+                            threshold));
 
   std::vector<Atom> atoms;
   for (std::size_t i = 0; i < centres.size(); ++i) {

@@ -71,7 +71,7 @@ class Chord {
   void eachLine(F f) const;
 
   Bounds bounds(double s0, double s1);
-  End end(double s) { return {s, bounds(s, s).value}; }
+  End end(double s);
   Point point(double s);
 
   std::optional<double> first(const End& a, const End& b, const Bounds& between);
@@ -150,7 +150,7 @@ void Chord<K>::eachLine(F f) const {
 
 template <class K>
 typename Chord<K>::Bounds Chord<K>::bounds(double s0, double s1) {
-  ++(s0 == s1 ? effort_.points : effort_.intervals);
+  ++effort_.intervals;
   Bounds sum{{-1, -1}, {0, 0}};
   double magnitude = 1, slopeMagnitude = 0;
   eachLine([&](const Line& l) {
@@ -177,6 +177,20 @@ typename Chord<K>::Bounds Chord<K>::bounds(double s0, double s1) {
 }
 
 template <class K>
+typename Chord<K>::End Chord<K>::end(double s) {
+  ++effort_.points;
+  Interval sum{-1, -1};
+  double magnitude = 1;
+  eachLine([&](const Line& l) {
+    const double q = (sqr(s - l.x) + l.rho2) * l.inverse2;
+    const double most = l.weight * K::value(q - l.qError);
+    addHull(sum, most, l.weight * K::value(q + l.qError));
+    magnitude += std::abs(most);
+  });
+  return {s, {sum.lo - sumError_ * magnitude, sum.hi + sumError_ * magnitude}};
+}
+
+template <class K>
 typename Chord<K>::Point Chord<K>::point(double s) {
   ++effort_.points;
   Point sum;
@@ -195,7 +209,7 @@ typename Chord<K>::Point Chord<K>::point(double s) {
 // meet at the height (R fa + S fb + S R w) / (S + R), above which f never is (Piyavskii 1972).
 // The bound's error shrinks with w^2: that is what ends the search beside a near touch quickly.
 bool keepsOff(const Interval& fa, const Interval& fb, const Interval& slope, double w) {
-  const bool below = fa.hi < 0 && fb.hi < 0, above = fa.lo > 0 && fb.lo > 0;
+  const bool below = fa.hi < 0 && fb.hi<0, above = fa.lo> 0 && fb.lo > 0;
   if (!below && !above) return false;
   const double a = below ? -fa.hi : fa.lo, b = below ? -fb.hi : fb.lo;  // how far off zero
   const double towardsFromA = std::max(0.0, below ? slope.hi : -slope.lo);
@@ -211,8 +225,8 @@ std::optional<double> Chord<K>::first(const End& a, const End& b, const Bounds& 
   const bool rising = slope.lo > 0;
   if (rising || slope.hi < 0) {
     // At most one zero: is it behind a or beyond b? One at the ray's start is behind.
-    const bool behind = (rising ? a.f.lo > 0 : a.f.hi < 0) ||
-                        (starts_ && a.s == -half_ && a.f.contains(0));
+    const bool behind =
+        (rising ? a.f.lo > 0 : a.f.hi < 0) || (starts_ && a.s == -half_ && a.f.contains(0));
     const bool beyond = rising ? b.f.hi < 0 : b.f.lo > 0;
     return behind || beyond ? std::nullopt : polish(a, b, rising);
   }
@@ -273,8 +287,9 @@ std::optional<double> firstCrossing(const Field& field, const Cell& cell, AtomLi
   return withKernel(field.kernel(), [&]<class K>(K) {
     Chord<K> chord(field, cell, list, ray);
     const std::optional<double> t = chord.first();
-    if (effort) *effort = {effort->intervals + chord.effort().intervals,
-                           effort->points + chord.effort().points};
+    if (effort)
+      *effort = {effort->intervals + chord.effort().intervals,
+                 effort->points + chord.effort().points};
     return t;
   });
 }

@@ -92,8 +92,7 @@ void trace(benchmark::State& state) {
   const auto perRay = [&](std::size_t n) {
     return benchmark::Counter(static_cast<double>(n), benchmark::Counter::kAvgIterations);
   };
-  state.counters["rays"] =
-      benchmark::Counter(static_cast<double>(i), benchmark::Counter::kIsRate);
+  state.counters["rays"] = benchmark::Counter(static_cast<double>(i), benchmark::Counter::kIsRate);
   state.counters["hits"] = perRay(hits);
   state.counters["cells"] = shape.primitives();
   state.counters["atoms/cell"] = shape.atomsPerCell();
@@ -114,5 +113,3 @@ BENCHMARK(build)->Arg(12)->Arg(300)->Arg(3000)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace pbrt::metaballs
-
-BENCHMARK_MAIN();

@@ -10,10 +10,9 @@
 
 namespace pbrt::metaballs::test {
 
-inline Atom atom(Kernel kernel, const Point3& p, float h, double strength, double threshold = 0.5) {
-  // poly6 at the threshold that makes it wyvill's surface.
-  const double unit = scale(kernel, 1);
-  return {p, h, 1.0 / h, strength * scale(kernel, h) / (threshold * unit)};
+// `strength` over the threshold, where a lone atom of radius `unit` has its own kernel's peak at 1.
+inline Atom atom(Kernel kernel, const Point3& p, float h, double strength, double unit = 1) {
+  return {p, h, 1.0 / h, strength * scale(kernel, h) / scale(kernel, unit)};
 }
 
 struct Random : Rng {
@@ -30,10 +29,9 @@ inline Field cloud(int count, Kernel kernel, double carving, double unit, std::u
   std::vector<Atom> atoms;
   for (int i = 0; i < count; ++i) {
     const bool carves = i > 0 && random.uniform() < carving;
-    Atom a = atom(kernel, Point3((count > 1 ? extent : 0) * random.cube()),
-                  static_cast<float>(unit * random.in(0.7, 1.3)), 1);
-    a.weight = (carves ? -2 : 2) * random.in(0.8, 1.5);
-    atoms.push_back(a);
+    atoms.push_back(atom(kernel, Point3((count > 1 ? extent : 0) * random.cube()),
+                         static_cast<float>(unit * random.in(0.7, 1.3)),
+                         (carves ? -2 : 3) * random.in(0.8, 1.5), unit));
   }
   return {kernel, atoms};
 }

@@ -14,7 +14,9 @@ namespace pbrt::metaballs::test {
 
 __extension__ typedef __float128 Quad;
 
-inline Quad abs(Quad x) { return x < 0 ? -x : x; }
+inline Quad abs(Quad x) {
+  return x < 0 ? -x : x;
+}
 
 // Taylor series of x / 2^12, then squared twelve times: relative error below 1e-28.
 inline Quad exp(Quad x) {

@@ -110,18 +110,20 @@ TEST_P(Crossing, IsTheFirst) {
         const Cells cells(field);
         Random random(count + 17);
         Tally tally;
-        const int rays = unit == 1 && count < 300 ? 300 : 60;
+        const int rays = unit == 1 && count < 300 ? 250 : 50;
         for (int i = 0; i < rays; ++i)
-          judge(field, cells,
-                rayOf(static_cast<RayKind>(i % kRayKinds), field, unit, random), unit, tally);
+          judge(field, cells, rayOf(static_cast<RayKind>(i % kRayKinds), field, unit, random), unit,
+                tally);
         tally.print(std::string(kKernels[static_cast<int>(GetParam())]) + " " +
                     std::to_string(count) + (carving > 0 ? " carved" : "") +
-                    (unit < 1 ? " x 1e-6" : unit > 1 ? " x 1e6" : ""));
+                    (unit < 1   ? " x 1e-6"
+                     : unit > 1 ? " x 1e6"
+                                : ""));
         EXPECT_EQ(tally.missed, 0);
         EXPECT_EQ(tally.wrong, 0);
-        EXPECT_GT(tally.hits, rays / 10);
-        EXPECT_LE(tally.touches, 0);
-        if (!tally.errors.empty()) EXPECT_LT(tally.errors.back(), 1e-9);
+        ASSERT_GT(tally.hits, rays / 20);
+        EXPECT_EQ(tally.touches, 0);
+        EXPECT_LT(tally.errors.back(), 1e-9);
       }
 }
 
@@ -179,11 +181,11 @@ TEST_P(Crossing, OfStiffSets) {
   std::vector<Atom> radii, strengths;
   Random random(9);
   for (int i = 0; i < 6; ++i) {
-    radii.push_back({Point3(1e-6 * random.cube()), 1e-6F, 1e6, 3});
-    strengths.push_back({Point3(random.cube()), 1, 1, i % 2 ? 2e4 : 2e-4});
+    radii.push_back(atom(Kernel::wyvill, Point3(1e-6 * random.cube()), 1e-6F, 3));
+    strengths.push_back(atom(Kernel::wyvill, Point3(random.cube()), 1, i % 2 ? 2e4 : 2e-4));
   }
-  radii.push_back({{1e6F, 0, 0}, 1e6F, 1e-6, 2});
-  strengths.push_back({{0.3F, 0.2F, 0}, 1, 1, -1e4});
+  radii.push_back(atom(Kernel::wyvill, {1e6F, 0, 0}, 1e6F, 2));
+  strengths.push_back(atom(Kernel::wyvill, {0.3F, 0.2F, 0}, 1, -1e4));
   for (const auto& atoms : {radii, strengths}) {
     const Field field(k, atoms);
     const Cells cells(field);
@@ -242,7 +244,9 @@ TEST_P(Crossing, KeepsToTheRaysPart) {
 INSTANTIATE_TEST_SUITE_P(Kernels, Crossing,
                          testing::Values(Kernel::poly6, Kernel::wyvill, Kernel::blob,
                                          Kernel::gaussian),
-                         [](const auto& i) { return std::string(kKernels[static_cast<int>(i.param)]); });
+                         [](const auto& i) {
+                           return std::string(kKernels[static_cast<int>(i.param)]);
+                         });
 
 TEST(CrossingOfNothing, IsNone) {
   const Field field(Kernel::wyvill, {{{0, 0, 0}, 1, 1, 2}});

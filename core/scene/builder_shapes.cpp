@@ -1,0 +1,97 @@
+#include <fmt/format.h>
+
+#include "core/scene/mesh.h"
+#include "core/scene/placement.h"
+#include "core/scene/scene_builder.h"
+
+namespace pbrt {
+
+void SceneBuilder::addLight(const Directive& d) {
+  auto light =
+      factory_.make<Light>(d.words.at(0), d.params, d.where, {transforms_.current(), nullptr});
+  scene_->ownLights_.push_back(std::move(light));
+}
+
+void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
+                            const Transform& toGroup, Group& group) {
+  auto g = std::make_unique<Geometry>();
+
+  const auto opened = factory_.open(PluginKind::shape, d.words.at(0), d.where);
+  Params params = factory_.params(opened, d.where, {&d.params});
+  g->shape = create<Shape>(*opened.plugin, params, {});
+  // What the shape does not know may be meant for its material.
+  if (const auto unread = params.unread(); unread.empty()) {
+    g->material = attributes.material->shared(factory_, attributes.textures);
+  } else {
+    ParamList overrides;
+    for (const Param* param : unread) overrides.push_back(*param);
+    g->material = attributes.material->overridden(factory_, *attributes.textures, overrides);
+    std::vector<Diagnostic> errors;
+    for (const Param& param : overrides) errors.push_back(params.unknown(param));
+    if (!errors.empty()) throw Error(std::move(errors));
+  }
+  scene_->filters_ = scene_->filters_ || g->material->filters();
+
+  g->reverse = attributes.reverse;
+  g->flip = attributes.reverse != toGroup.swapsHandedness();
+  g->toGroup = toGroup;
+  g->mesh = g->shape->triangles();
+  if (g->mesh) {
+    transformMesh(*g->mesh, toGroup);
+    g->toGroup = Transform();
+    group.accel.add(*g->mesh);
+  } else {
+    group.accel.add(*g->shape, g->toGroup);
+  }
+  ++scene_->shapes_;
+  if (attributes.areaLight) {
+    if (&group == &scene_->root_)
+      addAreaLight(*attributes.areaLight, d, toGroup, *g);
+    else
+      factory_.report(Severity::warning, d.where,
+                      "a shape of an object for instancing gives no light");
+  }
+  group.geometries.push_back(std::move(g));
+}
+
+void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
+                                const Transform& toRender, Geometry& g) {
+  if (g.mesh)
+    g.sampler = meshSampler(*g.mesh, g.flip);
+  else if (const AreaSampler* sampler = g.shape->areaSampler())
+    g.sampler = placedSampler(*sampler, g.toGroup, g.reverse);
+  if (!g.sampler) {
+    factory_.report(Severity::warning, shape.where,
+                    fmt::format("this {} cannot be an area light (it has no area, or no way to "
+                                "sample it yet); it stays dark",
+                                shape.words.at(0)));
+    return;
+  }
+  g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
+                                 {toRender, g.sampler.get()});
+}
+
+void SceneBuilder::addInstance(const Directive& d) {
+  if (openObject_) throw Error(d.where, "ObjectInstance inside an object");
+  const auto found = objects_.find(d.words.at(0));
+  if (found == objects_.end()) {
+    std::vector<std::string> names;
+    for (const auto& entry : objects_) names.push_back(entry.first);
+    throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", d.words[0],
+                                                didYouMean(d.words[0], names)));
+  }
+  Object& object = found->second;
+  if (!object.built) {
+    auto group = std::make_unique<Group>(scene_->device_);
+    for (const PendingShape& shape : object.shapes)
+      addShape(shape.directive, shape.attributes, shape.toGroup, *group);
+    object.shapes.clear();
+    group->accel.build();
+    object.built = group.get();
+    scene_->objects_.push_back(std::move(group));
+  }
+  if (object.built->geometries.empty()) return;
+  scene_->instances_.push_back({object.built, transforms_.current()});
+}
+
+}  // namespace pbrt

@@ -1,0 +1,83 @@
+#pragma once
+// The builder behind buildScene(), in three parts: statements (builder.cpp), shapes and lights
+// (builder_shapes.cpp), and what waits until the end (builder_finish.cpp).
+
+#include "core/scene/builder.h"
+#include "core/scene/graphics_state.h"
+
+namespace pbrt {
+
+// Carries out the directives one after the other. What only later statements decide (camera, film,
+// sampler, integrator) waits until the end; what nothing may use (textures, materials, objects)
+// waits until something does.
+class SceneBuilder {
+ public:
+  SceneBuilder(PluginLoader& loader, const BuildOptions& options, const DetectedDialect& dialect)
+      : options_(options),
+        factory_(loader, dialect.dialect, options.report),
+        defaults_(dialectDefaults(dialect.dialect)),
+        scene_(std::make_unique<Scene>(options.threads)) {
+    attributes_.textures = std::make_shared<TextureScope>(factory_);
+    attributes_.namedMaterials = std::make_shared<NamedMaterials>();
+    attributes_.material =
+        std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, Location{});
+  }
+
+  void handle(Directive&& d);
+  std::unique_ptr<Scene> finish();
+
+ private:
+  // A shape with all that was current when it was named.
+  struct PendingShape {
+    Directive directive;
+    Attributes attributes;
+    Transform toGroup;
+  };
+  struct Object {
+    std::vector<PendingShape> shapes;
+    const Group* built = nullptr;  // since the first instance
+  };
+  struct Saved {
+    Attributes attributes;
+    Transform transform;
+    Location where;
+    bool wholeState;  // AttributeBegin rather than TransformBegin
+  };
+
+  bool handleOption(Directive& d);
+  bool handleStack(const Directive& d);
+  bool handleAttribute(Directive& d);
+  bool handleWorld(Directive& d);
+  void beginWorld(const Directive& d);
+  void restore(const Directive& d, bool wholeState);
+  void refuseUnsupported(const Directive& d) const;
+
+  void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
+                Group& group);
+  void addAreaLight(const Directive& light, const Directive& shape, const Transform& toRender,
+                    Geometry& g);
+  void addInstance(const Directive& d);
+  void addLight(const Directive& d);
+  void makeCameraAndFilm();
+  Bounds2i cropBounds(Params& film, Point2i resolution) const;
+  const Directive& option(std::optional<Directive>& given, DirectiveKind kind,
+                          const std::string& name) const;
+
+  const BuildOptions& options_;
+  Factory factory_;
+  const DialectDefaults& defaults_;
+  std::unique_ptr<Scene> scene_;
+
+  TransformState transforms_;
+  Attributes attributes_;
+  std::vector<Saved> stack_;
+  bool inWorld_ = false, worldSeen_ = false;
+  std::map<std::string, Object> objects_;
+  Object* openObject_ = nullptr;
+  Location openObjectWhere_;
+
+  std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
+  Transform cameraFromWorld_;  // as of the Camera statement
+};
+
+}  // namespace pbrt

@@ -1,0 +1,121 @@
+// Halton's sequence: the radical inverse of the sample index in another prime base for every
+// dimension, its digits scrambled anew for every pixel.
+
+#include <array>
+
+#include "core/base/lowdiscrepancy.h"
+#include "core/plugin/plugin.h"
+
+namespace pbrt {
+namespace {
+
+constexpr std::size_t kBases = 256;
+
+// A prime below 2^11, and what divides by it.
+struct Base {
+  std::uint32_t prime = 0;
+  std::uint32_t factor = 0;  // 2^shift / prime, rounded up
+  int shift = 0;
+  double inverse = 0;
+
+  // floor(v / prime) for v < 2^31: the factor is too large by less than 1 and shift >= 31 +
+  // log2(prime), so the product is too large by less than 2^shift / prime
+  // (Granlund and Montgomery 1994, theorem 4.2).
+  std::uint32_t quotient(std::uint32_t v) const {
+    return static_cast<std::uint32_t>(std::uint64_t{v} * factor >> shift);
+  }
+};
+
+constexpr std::array<Base, kBases> makeBases() {
+  std::array<Base, kBases> bases;
+  std::size_t n = 0;
+  for (std::uint32_t v = 2; n < kBases; ++v) {
+    bool prime = true;
+    for (std::size_t i = 0; i < n && sqr(bases[i].prime) <= v; ++i)
+      prime &= v % bases[i].prime != 0;
+    if (!prime) continue;
+    const int shift = 31 + std::bit_width(v - 1);
+    bases[n++] = {v, static_cast<std::uint32_t>(((std::uint64_t{1} << shift) + v - 1) / v), shift,
+                  1.0 / v};
+  }
+  return bases;
+}
+
+constexpr std::array<Base, kBases> kBase = makeBases();
+
+class HaltonSampler final : public Sampler {
+ public:
+  HaltonSampler(Params& p, const Setup& setup)
+      : Sampler(setup.samplesPerPixel.value_or(p.integer(
+            "pixelsamples", 16, 1, std::numeric_limits<int>::max(), "samples per pixel"))),
+        keys_(setup.seed),
+        atCentre_(p.flag("samplepixelcenter", false, "every sample at its pixel's centre")) {
+    for (std::size_t i = 0; i < kBases; ++i)
+      for (auto rest = static_cast<std::uint32_t>(samplesPerPixel() - 1); rest > 0; ++digits_[i])
+        rest /= kBase[i].prime;
+  }
+
+  std::unique_ptr<Sampler> clone() const override { return std::make_unique<HaltonSampler>(*this); }
+
+  // Indices count modulo 2^31.
+  void start(Point2i pixel, std::uint32_t index) override {
+    keys_.start(pixel, index);
+    index_ = index & 0x7fffffffU;
+    dimension_ = 0;
+  }
+
+  Point2 pixel2D() override {
+    const Point2 p = get2D();
+    return atCentre_ ? Point2(0.5F) : p;
+  }
+
+  float get1D() override {
+    keys_.nextDimension();
+    const std::size_t d = dimension_++;
+    if (d >= kBases) return uniformPoint(keys_.sample()).x;
+    if (d > 0) return radicalInverse(kBase[d], digits_[d], index_, keys_.pixel());
+    return uniformFloat(reverseBits(nestedScramble(index_, keys_.pixel())));
+  }
+
+  Point2 get2D() override {
+    const float x = get1D();
+    return {x, get1D()};
+  }
+
+ private:
+  // Owen's scrambling (1995): every digit goes through a random permutation that depends on the
+  // digits before it. The permutations are affine, d -> a d + b mod p, which is as good as any:
+  // the variance depends on the joint distribution of pairs only, and two different digits go to
+  // every pair of different digits with the same probability (Matousek 1998, "On the
+  // L2-Discrepancy for Anchored Boxes"). What follows the digits of the largest index is random.
+  static float radicalInverse(const Base& base, int digits, std::uint32_t rest, std::uint64_t key) {
+    const std::uint32_t p = base.prime;
+    std::uint64_t reversed = 0;
+    double scale = 1;
+    for (; digits > 0 || rest > 0; --digits) {
+      const std::uint32_t next = base.quotient(rest);
+      const std::uint32_t digit = rest - next * p;
+      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(key), p - 1);
+      const auto b = scaleBits(static_cast<std::uint32_t>(key >> 32U), p);
+      const std::uint32_t affine = a * digit + b;
+      reversed = reversed * p + (affine - base.quotient(affine) * p);
+      scale *= base.inverse;
+      key = mixBits(key + digit);
+      rest = next;
+    }
+    const double tail = static_cast<double>(key >> 32U) * 0x1p-32;
+    return std::min(static_cast<float>((static_cast<double>(reversed) + tail) * scale),
+                    kOneMinusEpsilon);
+  }
+
+  SampleKeys keys_;
+  bool atCentre_;
+  std::array<std::uint8_t, kBases> digits_{};  // of samplesPerPixel() - 1, in each base
+  std::uint32_t index_ = 0;
+  std::size_t dimension_ = 0;
+};
+
+}  // namespace
+}  // namespace pbrt
+
+PBRT_PLUGIN(Sampler, pbrt::HaltonSampler, "halton", "Halton's sequence, scrambled in every pixel")

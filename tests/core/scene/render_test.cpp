@@ -1,0 +1,115 @@
+// The same scene, seed and samples give the same bits, however they are computed.
+
+#include "core/scene/render.h"
+
+#include "tests/scenes.h"
+
+namespace pbrt {
+namespace {
+
+// Something of everything: mesh, quadrics, an instance, metaballs, glass, a texture that filters,
+// an area light, a filter that reaches over tiles.
+std::string everything(const std::string& sampler, const std::string& integrator) {
+  return R"(
+    LookAt 0 1 6  0 0 0  0 1 0
+    Camera "perspective" "float fov" 40
+    Film "image" "integer xresolution" 75 "integer yresolution" 50
+    PixelFilter "mitchell"
+    Sampler ")" +
+         sampler + R"("
+    Integrator ")" +
+         integrator + R"("
+    WorldBegin
+    LightSource "point" "rgb I" [9 9 9] "point from" [2 3 4]
+    AttributeBegin
+      AreaLightSource "diffuse" "rgb L" [5 6 7] "integer nsamples" 3
+      Translate -2 3 1
+      Shape "sphere" "float radius" 0.4
+    AttributeEnd
+    Texture "checks" "color" "checkerboard" "float uscale" 9 "float vscale" 9
+    Material "matte" "texture Kd" "checks"
+    Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+      "point P" [-5 -1 -5  -5 -1 5  5 -1 5  5 -1 -5] "float uv" [0 0 0 1 1 1 1 0]
+    ObjectBegin "ball"
+      Material "glass"
+      Shape "sphere" "float radius" 0.6
+    ObjectEnd
+    AttributeBegin
+      Translate 1.2 0 1
+      ObjectInstance "ball"
+    AttributeEnd
+    Material "plastic"
+    Shape "metaballs" "point P" [-1 0 0  -0.4 0.2 0.1] "float radius" 1 "string kernel" "wyvill"
+      "float threshold" 0.4
+    Material "mirror"
+    Translate 0.5 0.9 -1
+    Shape "disk"
+    WorldEnd)";
+}
+
+class SameBits : public testing::TestWithParam<std::string> {};
+
+TEST_P(SameBits, ForAnyNumberOfThreads) {
+  const std::string scene = everything(GetParam(), "directlighting");
+  const Image one = test::renderText(scene, 1);
+  EXPECT_EQ(one.channels, test::renderText(scene, 2).channels);
+  EXPECT_EQ(one.channels, test::renderText(scene, 7).channels);
+}
+
+TEST_P(SameBits, WhenTheSamplesComeInSeveralPasses) {
+  const std::string scene = everything(GetParam(), "whitted");
+  BuildOptions options;
+  options.samplesPerPixel = 4;
+  const Image whole = test::renderText(scene, 0, options);
+  const auto split = test::buildText(scene, options);
+  test::renderScene(*split, 2, 0, 1);
+  EXPECT_EQ(whole.channels, test::renderScene(*split, 1, 1, 4).channels);
+}
+
+INSTANTIATE_TEST_SUITE_P(Samplers, SameBits,
+                         testing::Values("random", "stratified", "lowdiscrepancy", "bestcandidate",
+                                         "halton"));
+
+TEST(Render, AnotherSeedGivesAnotherPicture) {
+  const std::string scene = everything("random", "whitted");
+  BuildOptions other;
+  other.seed = 1;
+  EXPECT_NE(test::renderText(scene).channels, test::renderText(scene, 0, other).channels);
+}
+
+TEST(Render, ACropIsAPartOfTheWhole) {
+  const std::string scene = everything("halton", "directlighting");
+  const Image whole = test::renderText(scene);
+  BuildOptions options;
+  options.pixelBounds = {21, 53, 7, 31};
+  const Image crop = test::renderText(scene, 0, options);
+  ASSERT_EQ(crop.window, (Bounds2i{{21, 7}, {53, 31}}));
+  EXPECT_EQ(crop.resolution, Point2i(75, 50));
+  std::size_t i = 0;
+  for (int y = 7; y < 31; ++y)
+    for (int x = 21; x < 53; ++x, ++i)
+      for (int c = 0; c < 4; ++c)
+        EXPECT_NEAR(crop.channels[c][i], whole.channels[c][y * 75 + x], 1e-5F)
+            << x << ' ' << y << ' ' << c;
+}
+
+TEST(Render, StopsWhenToldTo) {
+  const auto scene = test::buildText(everything("random", "whitted"));
+  RenderControl control;
+  control.stop = true;
+  scene->integrator().render(*scene, scene->sampler(), scene->film(), control);
+  EXPECT_EQ(control.tilesDone, 0);
+}
+
+TEST(Render, CountsItsRays) {
+  const auto scene = test::buildText(
+      "Film \"image\" \"integer xresolution\" 10 \"integer yresolution\" 10\n"
+      "Sampler \"random\" \"integer pixelsamples\" 3\nIntegrator \"whitted\"\nWorldBegin WorldEnd");
+  RenderControl control;
+  control.endSample = 3;
+  scene->integrator().render(*scene, scene->sampler(), scene->film(), control);
+  EXPECT_EQ(control.rays, 300U);
+}
+
+}  // namespace
+}  // namespace pbrt

@@ -1,0 +1,58 @@
+#pragma once
+// What the tests of lights shine from.
+
+#include "core/base/rng.h"
+#include "core/base/warp.h"
+#include "tests/support.h"
+
+namespace pbrt::test {
+
+// A disk about the origin that faces +z, sampled uniformly over its area.
+class DiskSampler final : public AreaSampler {
+ public:
+  explicit DiskSampler(double radius) : radius_(radius) {}
+
+  double area() const override { return std::numbers::pi * radius_ * radius_; }
+  AreaSample sample(const DPoint3& from, Point2 u) const override {
+    AreaSample s;
+    s.p = DPoint3(radius_ * DVec3(concentricDisk(u), 0));
+    s.n = {0, 0, 1};
+    s.pdf = pdf(from, s.p, s.n);
+    return s;
+  }
+  float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
+    return uniformAreaPdf(from, p, n, area());
+  }
+  bool mayHit(const DPoint3& from, const DVec3& w) const override {
+    const double t = -from.z / w.z;
+    return t > 0 && glm::length(from + t * w) <= radius_;
+  }
+
+ private:
+  double radius_;
+};
+
+// Irradiance of a surface element at p with normal n, nothing in between, by n samples.
+inline Spectrum irradiance(const Light& light, const Point3& p, const Normal3& n, int samples = 1) {
+  Rng rng(1);
+  Spectrum E(0);
+  for (int i = 0; i < samples; ++i) {
+    const LightSample s = light.sample(p, {rng.uniform(), rng.uniform()});
+    if (s.pdf > 0) E += s.L * (std::max(0.F, glm::dot(s.wi, n)) / s.pdf / samples);
+  }
+  return E;
+}
+
+// The flux through a sphere around the origin, whose centre is not where the light is.
+inline double flux(const Light& light, float radius) {
+  constexpr int n = 300;
+  double sum = 0;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Vec3 w = uniformSphere({(i + 0.5F) / n, (j + 0.5F) / n});
+      sum += irradiance(light, radius * w, -w).x;
+    }
+  return sum * 4 * std::numbers::pi * radius * radius / (n * n);
+}
+
+}  // namespace pbrt::test

@@ -1,0 +1,195 @@
+// Laws of scattering, for every material that can be found, with every set of parameters below
+// whose names the material knows.
+
+#include "tests/chi_square.h"
+#include "tests/materials/scattering.h"
+
+namespace pbrt::test {
+namespace {
+
+std::vector<ParamList> parameterSets() {
+  return {{},
+          {number("sigma", 20)},
+          {number("sigma", 90)},
+          {number("roughness", 1e-6F)},
+          {number("roughness", 0.2F)},
+          {number("roughness", 1)},
+          {number("roughness", 0.3F), flag("remaproughness", false)},
+          {number("roughness", 1e-6F), flag("remaproughness", false)},
+          {number("roughness", 1e-6F), text("distribution", "blinn")},
+          {number("roughness", 0.1F), text("distribution", "blinn")},
+          {number("roughness", 1), text("distribution", "blinn")},
+          {number("index", 1)},
+          {number("index", 1.0000001F)},
+          {number("index", 0.7F)},
+          {number("index", 1000)},
+          {rgb("Kd", 0, 0, 0)},
+          {rgb("Ks", 0.1F, 0.2F, 0.3F)}};
+}
+
+// Whether its highlights are wide enough for cells of a few degrees.
+bool broad(const ParamList& set) {
+  for (const Param& p : set)
+    if (p.name == "roughness" && std::get<std::vector<float>>(p.values)[0] < 0.1F) return false;
+  return true;
+}
+
+template <class Check>
+void forEveryMaterial(Check check) {
+  const auto names = loader().available(PluginKind::material);
+  ASSERT_GE(names.size(), 5U);
+  for (const std::string& name : names) {
+    std::vector<Declaration> declared;
+    Params describing = Params::describing(name, declared);
+    create<Material>(loader().open(PluginKind::material, name), describing, {});
+    for (const ParamList& set : parameterSets()) {
+      bool known = true;
+      std::string label = name;
+      for (const Param& p : set) {
+        label += " " + p.name;
+        if (p.type == ParamType::number)
+          label += "=" + std::to_string(std::get<std::vector<float>>(p.values)[0]);
+        known &= std::any_of(declared.begin(), declared.end(),
+                             [&](const Declaration& d) { return d.name == p.name; });
+      }
+      if (!known) continue;
+      SCOPED_TRACE(label);
+      const Scattering bsdf(name, set);
+      check(name, set, *bsdf.operator->());
+    }
+  }
+}
+
+const double kAngles[] = {0, 30, 70, 88, 110, 150};
+
+TEST(MaterialLaws, Reciprocity) {
+  forEveryMaterial([](const std::string&, const ParamList&, const Bsdf& bsdf) {
+    Rng rng(2);
+    for (int i = 0; i < 2000; ++i) {
+      const Vec3 a = uniformSphere({rng.uniform(), rng.uniform()});
+      Vec3 b = uniformSphere({rng.uniform(), rng.uniform()});
+      if (a.z * b.z < 0) b.z = -b.z;
+      const Spectrum f = bsdf.f(a, b), g = bsdf.f(b, a);
+      for (int c = 0; c < 3; ++c)
+        ASSERT_NEAR(f[c], g[c], 1e-3F * f[c] + 1e-9F) << a.z << " " << b.z;
+    }
+  });
+}
+
+TEST(MaterialLaws, NoEnergyIsMade) {
+  forEveryMaterial([](const std::string& name, const ParamList&, const Bsdf& bsdf) {
+    // Each of shinymetal's two parts alone may reflect everything, as in pbrt-v1.
+    const double most = name == "shinymetal" ? 2 : 1;
+    for (const double angle : kAngles) {
+      const double share = albedo(bsdf, direction(angle), 20000);
+      EXPECT_LE(share, most * 1.02) << angle;
+      EXPECT_GE(share, 0) << angle;
+    }
+  });
+}
+
+// The counts of sample()'s directions in cells of the sphere, and of no direction at all, are
+// those that pdf() predicts.
+TEST(MaterialLaws, SamplesFollowTheirDensity) {
+  forEveryMaterial([](const std::string&, const ParamList& set, const Bsdf& bsdf) {
+    constexpr auto wanted = static_cast<std::uint8_t>(kAllLobes & ~kSpecular);
+    if (bsdf.lobes(wanted) == 0 || !broad(set)) return;
+    constexpr int rows = 20, columns = 24, fine = 16, samples = 40000;
+    for (const double angle : kAngles) {
+      const Vec3 wo = direction(angle);
+      std::vector<double> expected(rows * columns + 1), counts(rows * columns + 1);
+      double total = 0;
+      for (int i = 0; i < rows * fine; ++i)
+        for (int j = 0; j < columns * fine; ++j) {
+          const Point2 u{(i + 0.5F) / (rows * fine), (j + 0.5F) / (columns * fine)};
+          const double share = bsdf.pdf(wo, uniformSphere(u), wanted) * 4 * std::numbers::pi /
+                               (rows * columns * fine * fine);
+          total += share;
+          expected[i / fine * columns + j / fine] += samples * share;
+        }
+      EXPECT_LE(total, 1.005) << angle;
+      expected.back() = samples * std::max(0.0, 1 - total);
+      Rng rng(3);
+      for (int i = 0; i < samples; ++i) {
+        const Point2 u{rng.uniform(), rng.uniform()};
+        const auto s = bsdf.sample(wo, u, wanted);
+        if (!s) {
+          ++counts.back();
+          continue;
+        }
+        double phi = std::atan2(s->wi.y, s->wi.x) / (2 * std::numbers::pi);
+        if (phi < 0) phi += 1;
+        const int row = std::clamp(static_cast<int>((1 - s->wi.z) / 2 * rows), 0, rows - 1);
+        const int column = std::clamp(static_cast<int>(phi * columns), 0, columns - 1);
+        ++counts[row * columns + column];
+      }
+      // Cells with few expected counts are put together.
+      std::vector<double> e{0}, c{0};
+      for (std::size_t k = 0; k < expected.size(); ++k) {
+        if (expected[k] < 10) {
+          e[0] += expected[k];
+          c[0] += counts[k];
+        } else {
+          e.push_back(expected[k]);
+          c.push_back(counts[k]);
+        }
+      }
+      if (e[0] < 10) {
+        EXPECT_LE(c[0], 40) << angle;
+        e.erase(e.begin());
+        c.erase(c.begin());
+      }
+      EXPECT_LT(chiSquareDeviation(c, e), 4.5) << angle;
+    }
+  });
+}
+
+TEST(MaterialLaws, SamplesSayWhatValueAndDensitySay) {
+  forEveryMaterial([](const std::string&, const ParamList&, const Bsdf& bsdf) {
+    Rng rng(4);
+    for (const double angle : kAngles)
+      for (int i = 0; i < 500; ++i) {
+        const Vec3 wo = direction(angle);
+        const Point2 u{rng.uniform(), rng.uniform()};
+        const auto s = bsdf.sample(wo, u);
+        if (!s) continue;
+        ASSERT_NEAR(glm::length(s->wi), 1, 1e-5F);
+        ASSERT_TRUE(isFinite(s->f) && s->pdf > 0 && std::isfinite(s->pdf));
+        if (s->flags & kSpecular) {
+          ASSERT_NEAR(s->pdf, 1.F / bsdf.lobes(kAllLobes), 1e-6F);
+        } else {
+          // Sharp highlights magnify the rounding of directions.
+          ASSERT_NEAR(bsdf.pdf(wo, s->wi), s->pdf, 0.03F * s->pdf);
+          const Spectrum f = bsdf.f(wo, s->wi);
+          for (int c = 0; c < 3; ++c) ASSERT_NEAR(f[c], s->f[c], 0.03F * s->f[c]);
+        }
+      }
+  });
+}
+
+TEST(MaterialLaws, EverythingIsFiniteWhereDirectionsAreExtreme) {
+  forEveryMaterial([](const std::string&, const ParamList&, const Bsdf& bsdf) {
+    std::vector<Vec3> extremes = {{0, 0, 1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}};
+    for (const float z : {1e-3F, 1e-7F, 1e-20F, 1e-38F, 0.3F})
+      for (const float x : {-1.F, 1.F}) extremes.push_back({x * std::sqrt(1 - z * z), 0, z});
+    for (std::size_t i = 0, n = extremes.size(); i < n; ++i) extremes.push_back(-extremes[i]);
+    Rng rng(5);
+    for (const Vec3& wo : extremes) {
+      for (const Vec3& wi : extremes) {
+        const Spectrum f = bsdf.f(wo, wi);
+        ASSERT_TRUE(isFinite(f)) << wo.x << " " << wo.z << " " << wi.x << " " << wi.z;
+        ASSERT_TRUE(f.x >= 0 && f.y >= 0 && f.z >= 0);
+        ASSERT_TRUE(std::isfinite(bsdf.pdf(wo, wi)) && bsdf.pdf(wo, wi) >= 0);
+      }
+      for (const Point2 u : {Point2(0), Point2(0, kOneMinusEpsilon), Point2(kOneMinusEpsilon, 0),
+                             Point2(0.5F), Point2(kOneMinusEpsilon)})
+        if (const auto s = bsdf.sample(wo, u)) {
+          ASSERT_TRUE(isFinite(s->f) && std::isfinite(s->pdf) && s->pdf > 0) << wo.x << " " << wo.z;
+          ASSERT_NEAR(glm::length(s->wi), 1, 1e-5F);
+        }
+    }
+  });
+}
+
+}  // namespace
+}  // namespace pbrt::test
