@@ -105,7 +105,7 @@ class BestCandidateSampler final : public Sampler {
     keys_.nextDimension();
     const std::uint64_t key = keys_.pixel() ^ round_;
     return shifted(*pattern_, permute(index_, count_, key),
-                   uniformPoint(key * 0x9e3779b97f4a7c15ULL));
+                   uniformPoint(mixBits(key)));
   }
 
   // The set is the pattern's beginning; its shifts, one per sample, are well spread as well.

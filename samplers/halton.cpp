@@ -88,22 +88,27 @@ class HaltonSampler final : public Sampler {
   // the variance depends on the joint distribution of pairs only, and two different digits go to
   // every pair of different digits with the same probability (Matousek 1998, "On the
   // L2-Discrepancy for Anchored Boxes"). What follows the digits of the largest index is random.
-  static float radicalInverse(const Base& base, int digits, std::uint32_t rest, std::uint64_t key) {
+  static float radicalInverse(const Base& base, int digits, std::uint32_t index,
+                              std::uint64_t key) {
     const std::uint32_t p = base.prime;
     std::uint64_t reversed = 0;
-    double scale = 1;
-    for (; digits > 0 || rest > 0; --digits) {
+    std::uint64_t prefix = 1;  // p^k + (index mod p^k): the first k digits
+    std::uint64_t power = 1;   // p^k
+    double scale = 1;          // 1 / p^k
+    for (std::uint32_t rest = index; digits > 0 || rest > 0; --digits) {
       const std::uint32_t next = base.quotient(rest);
       const std::uint32_t digit = rest - next * p;
-      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(key), p - 1);
-      const auto b = scaleBits(static_cast<std::uint32_t>(key >> 32U), p);
+      const std::uint64_t random = mixBits(key + prefix);
+      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(random), p - 1);
+      const auto b = scaleBits(static_cast<std::uint32_t>(random >> 32U), p);
       const std::uint32_t affine = a * digit + b;
       reversed = reversed * p + (affine - base.quotient(affine) * p);
+      prefix += power * (p - 1 + digit);
+      power *= p;
       scale *= base.inverse;
-      key = mixBits(key + digit);
       rest = next;
     }
-    const double tail = static_cast<double>(key >> 32U) * 0x1p-32;
+    const double tail = static_cast<double>(mixBits(key + prefix) >> 32U) * 0x1p-32;
     return std::min(static_cast<float>((static_cast<double>(reversed) + tail) * scale),
                     kOneMinusEpsilon);
   }

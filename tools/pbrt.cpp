@@ -45,8 +45,8 @@ void defineOptions(CLI::App& app, Options& o) {
                  "Scene files; several are one scene in sequence. None, or -, is "
                  "standard input");
   app.add_option("--outfile", o.outputs, "Where the picture goes (.exr or .png); may be repeated")
-      ->expected(1)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+      ->take_all()
+      ->allow_extra_args(false);
   app.add_option("--spp", o.samplesPerPixel, "Samples per pixel")
       ->check(CLI::Range(1, std::numeric_limits<int>::max()));
   app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");

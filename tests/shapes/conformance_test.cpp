@@ -1,144 +1,19 @@
 // The laws of every shape: what core/api/shape.h promises, for each shape plug-in of the build.
-// A new shape is tested with its defaults; a row of the table gives it better parameters.
 
-#include <map>
+#include "tests/shapes/conformance.h"
+
+#include <bit>
 #include <thread>
-
-#include "core/base/rng.h"
-#include "core/base/warp.h"
-#include "tests/support.h"
 
 namespace pbrt {
 namespace {
 
-using test::integers;
-using test::number;
-using test::points;
+using test::Found;
 
-struct Row {
-  std::string label;
-  ParamList params;
-  bool convex = false;  // no ray that leaves outward meets it again
-};
+class Traced : public test::Shapes {};  // asked ray by ray
+class Meshes : public test::Shapes {};  // handed over as triangles
 
-const std::map<std::string, std::vector<Row>> kTable = {
-    {"sphere",
-     {{"whole", {number("radius", 2)}, true},
-      {"tiny", {number("radius", 1e-6F)}, true},
-      {"huge", {number("radius", 1e6F)}, true},
-      {"part", {number("zmin", -0.5F), number("zmax", 0.8F), number("phimax", 250)}}}},
-    {"disk",
-     {{"whole", {}, true},
-      {"sector",
-       {number("height", 3), number("radius", 2), number("innerradius", 0.5F),
-        number("phimax", 100)},
-       true}}},
-    {"trianglemesh", {{"triangle", {points("P", {0, 0, 0, 1, 0, 0, 0, 1, 0})}}}},
-    {"loopsubdiv",
-     {{"tetrahedron",
-       {points("P", {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1}),
-        integers("indices", {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2})}}}},
-    {"nurbs",
-     {{"saddle",
-       {integers("nu", {2}), integers("nv", {2}), integers("uorder", {2}),
-        integers("vorder", {2}), test::value(ParamType::number, "uknots", {0, 0, 1, 1}),
-        test::value(ParamType::number, "vknots", {0, 0, 1, 1}),
-        points("P", {0, 0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0})}}}},
-    {"metaballs",
-     {{"ball", {points("P", {1, 2, 3})}},
-      {"bridge", {points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}}}},
-};
-
-struct Case {
-  std::string shape;
-  Row row;
-};
-
-std::vector<Case> allCases() {
-  std::vector<Case> cases;
-  for (const std::string& shape : test::loader().available(PluginKind::shape)) {
-    const auto rows = kTable.find(shape);
-    if (rows == kTable.end())
-      cases.push_back({shape, {"defaults", {}}});
-    else
-      for (const Row& row : rows->second) cases.push_back({shape, row});
-  }
-  return cases;
-}
-
-struct Found {
-  ShapeHit hit;
-  std::uint32_t primitive = 0;
-};
-
-class Shapes : public testing::TestWithParam<Case> {
- protected:
-  void SetUp() override {
-    try {
-      shape_ = test::make<Shape>(GetParam().shape, GetParam().row.params);
-    } catch (const Error& error) {
-      FAIL() << "give \"" << GetParam().shape << "\" parameters in the table: " << error.what();
-    }
-    for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
-      if (!shape_->bounds(i).empty()) box_.add(shape_->bounds(i));
-    centre_ = DPoint3(box_.lo) * 0.5 + DPoint3(box_.hi) * 0.5;
-    size_ = glm::length(DVec3(box_.hi) - DVec3(box_.lo)) / 2;
-  }
-  // Whether the laws of traced shapes apply.
-  bool traced() const { return !shape_->triangles() && !box_.empty(); }
-
-  DPoint3 around(double radii) {
-    return centre_ + radii * size_ * DVec3(uniformSphere({rng_.uniform(), rng_.uniform()}));
-  }
-  DPoint3 inBox() {
-    const DVec3 u(rng_.uniform(), rng_.uniform(), rng_.uniform());
-    return DPoint3(box_.lo) + u * (DVec3(box_.hi) - DVec3(box_.lo));
-  }
-  // A ray that is likely to hit: from outside, sometimes from within.
-  ObjectRay ray() {
-    const DPoint3 o = rng_.uniform() < 0.8F ? around(1.01 + 4 * rng_.uniform()) : inBox();
-    return {o, (inBox() - o) * (0.2 + 2 * rng_.uniform())};
-  }
-
-  std::optional<Found> nearest(const ObjectRay& ray) const {
-    std::optional<Found> best;
-    for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
-      if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
-        best = Found{*hit, i};
-    return best;
-  }
-  // All crossings along a ray, each once.
-  template <class Visit>
-  void crossings(ObjectRay ray, Visit visit) const {
-    while (const auto found = nearest(ray)) {
-      visit(shape_->surface(ray, found->hit));
-      ray.tMin = std::nextafter(found->hit.t, kInfinity);
-    }
-  }
-  // Calls visit(ray, found, point) for `count` hits.
-  template <class Visit>
-  void forHits(int count, Visit visit) {
-    int hits = 0;
-    for (int tries = 0; hits < count && tries < 100 * count; ++tries) {
-      const ObjectRay r = ray();
-      const auto found = nearest(r);
-      if (!found) continue;
-      ++hits;
-      visit(r, *found, shape_->surface(r, found->hit));
-      if (HasFatalFailure()) return;
-    }
-    EXPECT_EQ(hits, count) << "the shape is hardly ever hit within its bounds";
-  }
-
-  std::unique_ptr<Shape> shape_;
-  Bounds3 box_;
-  DPoint3 centre_{0};
-  double size_ = 0;
-  Rng rng_{7};
-};
-
-TEST_P(Shapes, HitsLieWithinBoundsAndOnTheRay) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, HitsLieWithinBoundsAndOnTheRay) {
   forHits(5000, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
     EXPECT_EQ(f.hit.primitive, f.primitive);
     EXPECT_GT(f.hit.t, 0);
@@ -155,8 +30,7 @@ TEST_P(Shapes, HitsLieWithinBoundsAndOnTheRay) {
   });
 }
 
-TEST_P(Shapes, PointsLieOnTheSurfaceWithinTheirError) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, PointsLieOnTheSurfaceWithinTheirError) {
   int lost = 0;
   const int count = 5000;
   forHits(count, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
@@ -178,8 +52,7 @@ TEST_P(Shapes, PointsLieOnTheSurfaceWithinTheirError) {
   EXPECT_LE(lost, count / 1000) << "points that are off the surface by more than they say";
 }
 
-TEST_P(Shapes, FramesAreConsistent) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, FramesAreConsistent) {
   forHits(5000, [&](const ObjectRay&, const Found&, const SurfacePoint& s) {
     EXPECT_NEAR(glm::length(s.n), 1, 1e-5);
     if (s.ns != Normal3(0)) {
@@ -196,8 +69,7 @@ TEST_P(Shapes, FramesAreConsistent) {
 }
 
 // p and n at a neighbouring point are what the derivatives foretell, but for seams and poles.
-TEST_P(Shapes, DerivativesForetellTheNeighbourhood) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, DerivativesForetellTheNeighbourhood) {
   int tested = 0, wrong = 0;
   forHits(5000, [&](const ObjectRay& r, const Found&, const SurfacePoint& s) {
     if (std::abs(glm::dot(glm::normalize(r.d), DVec3(s.n))) < 0.3) return;
@@ -222,8 +94,7 @@ TEST_P(Shapes, DerivativesForetellTheNeighbourhood) {
 }
 
 // Rays that leave a point, off by no more than its error, do not meet the surface they leave.
-TEST_P(Shapes, RaysLeaveTheSurface) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, RaysLeaveTheSurface) {
   int stuck = 0;
   const int count = 5000;
   forHits(count, [&](const ObjectRay&, const Found&, const SurfacePoint& s) {
@@ -234,7 +105,7 @@ TEST_P(Shapes, RaysLeaveTheSurface) {
       if (cosine * side < 0) w -= 2 * cosine * n;
       const auto found = nearest({s.p + side * s.error * n, w});
       if (!found) continue;
-      if (side > 0) EXPECT_FALSE(GetParam().row.convex) << "at t = " << found->hit.t;
+      EXPECT_FALSE(side > 0 && GetParam().row.convex) << "at t = " << found->hit.t;
       // From inside or over a hollow the way to the surface grows with the cosine.
       if (found->hit.t < 100 * s.error + 1e-9 * size_) ++stuck;
     }
@@ -242,8 +113,7 @@ TEST_P(Shapes, RaysLeaveTheSurface) {
   EXPECT_LE(stuck, count / 1000);
 }
 
-TEST_P(Shapes, ShadowRaysAgreeAndTheRangeOfTIsKept) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, ShadowRaysAgreeAndTheRangeOfTIsKept) {
   for (int i = 0; i < 5000; ++i) {
     const ObjectRay r = ray();
     for (std::uint32_t k = 0; k < shape_->primitives(); ++k) {
@@ -258,13 +128,13 @@ TEST_P(Shapes, ShadowRaysAgreeAndTheRangeOfTIsKept) {
       EXPECT_TRUE(shape_->intersect(cut, k));
       cut = r;
       cut.tMin = 1.0001F * hit->t;
-      if (const auto later = shape_->intersect(cut, k)) EXPECT_GT(later->t, cut.tMin);
+      const auto later = shape_->intersect(cut, k);
+      EXPECT_TRUE(!later || later->t > cut.tMin);
     }
   }
 }
 
-TEST_P(Shapes, ThreadsSeeTheSame) {
-  if (!traced()) GTEST_SKIP();
+TEST_P(Traced, ThreadsSeeTheSame) {
   std::vector<ObjectRay> rays(1000);
   for (ObjectRay& r : rays) r = ray();
   const auto trace = [&] {
@@ -284,3 +154,41 @@ TEST_P(Shapes, ThreadsSeeTheSame) {
   for (std::thread& t : threads) t.join();
   for (const std::uint64_t sum : sums) EXPECT_EQ(sum, expected);
 }
+
+TEST_P(Meshes, AreSound) {
+  const TriangleMesh* mesh = shape_->triangles();
+  const std::size_t n = mesh->positions.size();
+  ASSERT_EQ(mesh->indices.size() % 3, 0U);
+  ASSERT_GT(mesh->triangles(), 0U);
+  for (const std::uint32_t i : mesh->indices) ASSERT_LT(i, n);
+  EXPECT_TRUE(mesh->normals.empty() || mesh->normals.size() == n);
+  EXPECT_TRUE(mesh->tangents.empty() || mesh->tangents.size() == n);
+  EXPECT_TRUE(mesh->uv.empty() || mesh->uv.size() == n);
+  for (const Point3& p : mesh->positions) EXPECT_TRUE(isFinite(p));
+  for (const Normal3& m : mesh->normals) EXPECT_TRUE(isFinite(m));
+  for (const Vec3& t : mesh->tangents) EXPECT_TRUE(isFinite(t));
+  for (const Point2& uv : mesh->uv) EXPECT_TRUE(std::isfinite(uv.x) && std::isfinite(uv.y));
+  if (mesh->normals.empty()) return;
+  // Normals lie on the side from which the triangles run counter-clockwise.
+  std::size_t against = 0;
+  for (std::size_t i = 0; i < mesh->indices.size(); ++i) {
+    const std::uint32_t* t = &mesh->indices[i - i % 3];
+    const Point3 a = mesh->positions[t[0]], b = mesh->positions[t[1]], c = mesh->positions[t[2]];
+    const Vec3 facet = glm::cross(b - a, c - a);
+    const bool agrees = glm::dot(facet, mesh->normals[mesh->indices[i]]) > 0;
+    against += lengthSquared(facet) > 0 && !agrees ? 1 : 0;
+  }
+  EXPECT_LE(against, mesh->indices.size() / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Traced, testing::ValuesIn(test::casesWhere([](Shape& s) {
+                           return !s.triangles();
+                         })),
+                         test::caseName);
+INSTANTIATE_TEST_SUITE_P(Every, Meshes, testing::ValuesIn(test::casesWhere([](Shape& s) {
+                           return s.triangles();
+                         })),
+                         test::caseName);
+
+}  // namespace
+}  // namespace pbrt

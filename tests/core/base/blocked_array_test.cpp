@@ -47,7 +47,7 @@ TEST(BlockedArray, MayBeEmpty) {
 TEST(BlockedArray, MayHoldMoreThanTwoToThe31Elements) {
   // Elements of no interest, 2 GiB of address space that is touched in two places only.
   struct Byte {
-    Byte() {}  // leaves the memory as it is
+    Byte() {}  // NOLINT(modernize-use-equals-default): leaves the memory as it is
     unsigned char value;
   };
   BlockedArray<Byte, 6> array(1 << 16, (1 << 15) + 64);

@@ -82,6 +82,9 @@ TEST(Robustness, LargeRepetitions) {
   std::string brackets = "Shape \"a\" ";
   for (std::size_t i = 0; i < kSize / 20; ++i) brackets += "\"float x\" [1 # [\n] ";
   EXPECT_EQ(test::errorOf(brackets), "");
+  std::string items = "Shape \"a\" \"integer x\" [ # one by one\n";
+  for (std::size_t i = 0; i < kSize / 4; ++i) items += "123 ";
+  EXPECT_EQ(test::errorOf(items + "]"), "");
 }
 
 }  // namespace

@@ -1,0 +1,65 @@
+// A pinhole or thin-lens camera that looks along +z.
+
+#include "core/plugin/plugin.h"
+#include "core/plugin/projective_camera.h"
+
+namespace pbrt {
+
+class PerspectiveCamera final : public ProjectiveCamera {
+ public:
+  PerspectiveCamera(Params& p, const Setup& setup)
+      : ProjectiveCamera(p, setup), tangent_(tangent(p)), centre_(origin()) {
+    const glm::dvec2 corner = tangent_ * window().upperLeft();
+    const glm::dvec2 pixel = tangent_ * window().pixel();
+    corner_ = corner.x * x() + corner.y * y() + z();
+    right_ = pixel.x * x();
+    down_ = pixel.y * y();
+  }
+
+  CameraRay generate(const CameraSample& sample, bool differentials) const override {
+    // Through the film's place on the plane z = 1.
+    Vec3 d = corner_ + sample.film.x * right_ + sample.film.y * down_;
+    CameraRay result;
+    RayDifferential& ray = result.ray;
+    ray.o = centre_;
+    if (!pinhole()) {
+      const Vec3 offset = lens(sample.lens);
+      ray.o += offset;
+      d -= inverseFocus() * offset;
+    }
+    finish(ray, d, sample.time);
+    if (differentials) {
+      ray.hasDifferentials = true;
+      ray.rxOrigin = ray.ryOrigin = ray.o;
+      ray.rxDirection = glm::normalize(d + right_);
+      ray.ryDirection = glm::normalize(d + down_);
+    }
+    return result;
+  }
+
+  // z becomes 1 - 1 / z: it grows with the depth.
+  std::optional<glm::dmat4> screenFromCamera() const override {
+    const double s = 1 / tangent_;
+    return window().toNdc() * glm::dmat4({s, 0, 0, 0}, {0, s, 0, 0}, {0, 0, 1, 1}, {0, 0, -1, 0});
+  }
+
+ private:
+  // The half height of the screen's unit square, seen at z = 1.
+  static double tangent(Params& p) {
+    const float fov = p.number("fov", 90, "angle of view over the shorter side", "degrees");
+    const auto half =
+        p.optionalNumber("halffov", "half the angle of view; goes before fov", "degrees");
+    if (!(fov > 0 && fov < 180)) p.fail("fov", "must be above 0 and below 180");
+    if (half && !(*half > 0 && *half < 90)) p.fail("halffov", "must be above 0 and below 90");
+    return std::tan(glm::radians(half ? double{*half} : double{fov} / 2));
+  }
+
+  double tangent_;
+  Point3 centre_;
+  Vec3 corner_, right_, down_;  // render space, at camera-space z = 1
+};
+
+}  // namespace pbrt
+
+PBRT_PLUGIN(Camera, pbrt::PerspectiveCamera, "perspective",
+            "sees as an eye does, near things large")

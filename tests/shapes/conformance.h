@@ -1,0 +1,143 @@
+#pragma once
+// Every shape plug-in of the build, made by parameters that show what it can do. A new shape is
+// made with its defaults; a row of the table gives it better parameters.
+
+#include <map>
+
+#include "core/base/rng.h"
+#include "core/base/warp.h"
+#include "tests/support.h"
+
+namespace pbrt::test {
+
+struct Row {
+  std::string label;
+  ParamList params;
+  bool convex = false;  // no ray that leaves outward meets it again
+};
+
+inline const std::map<std::string, std::vector<Row>> kTable = {
+    {"sphere",
+     {{"whole", {number("radius", 2)}, true},
+      {"tiny", {number("radius", 1e-6F)}, true},
+      {"huge", {number("radius", 1e6F)}, true},
+      {"part", {number("zmin", -0.5F), number("zmax", 0.8F), number("phimax", 250)}}}},
+    {"disk",
+     {{"whole", {}, true},
+      {"sector",
+       {number("height", 3), number("radius", 2), number("innerradius", 0.5F),
+        number("phimax", 100)},
+       true}}},
+    {"trianglemesh", {{"triangle", {points("P", {0, 0, 0, 1, 0, 0, 0, 1, 0})}}}},
+    {"loopsubdiv",
+     {{"tetrahedron",
+       {points("P", {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1}),
+        integers("indices", {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2})}}}},
+    {"nurbs",
+     {{"saddle",
+       {integers("nu", {2}), integers("nv", {2}), integers("uorder", {2}), integers("vorder", {2}),
+        value(ParamType::number, "uknots", {0, 0, 1, 1}),
+        value(ParamType::number, "vknots", {0, 0, 1, 1}),
+        points("P", {0, 0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0})}}}},
+    {"metaballs",
+     {{"ball", {points("P", {1, 2, 3})}},
+      {"bridge", {points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}}}},
+};
+
+struct Case {
+  std::string shape;
+  Row row;
+};
+
+// The shapes for which keep(shape) holds. One that cannot be made is kept: its tests say why.
+template <class Keep>
+std::vector<Case> casesWhere(Keep keep) {
+  std::vector<Case> cases;
+  for (const std::string& shape : loader().available(PluginKind::shape)) {
+    const auto rows = kTable.find(shape);
+    for (const Row& row : rows == kTable.end() ? std::vector<Row>{{"defaults", {}}} : rows->second)
+      try {
+        if (keep(*make<Shape>(shape, row.params))) cases.push_back({shape, row});
+      } catch (const Error&) {
+        cases.push_back({shape, row});
+      }
+  }
+  return cases;
+}
+
+struct Found {
+  ShapeHit hit;
+  std::uint32_t primitive = 0;
+};
+
+class Shapes : public testing::TestWithParam<Case> {
+ protected:
+  void SetUp() override {
+    try {
+      shape_ = make<Shape>(GetParam().shape, GetParam().row.params);
+    } catch (const Error& error) {
+      FAIL() << "give \"" << GetParam().shape << "\" parameters in the table: " << error.what();
+    }
+    for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
+      if (!shape_->bounds(i).empty()) box_.add(shape_->bounds(i));
+    centre_ = DPoint3(box_.lo) * 0.5 + DPoint3(box_.hi) * 0.5;
+    size_ = glm::length(DVec3(box_.hi) - DVec3(box_.lo)) / 2;
+  }
+  DPoint3 around(double radii) {
+    return centre_ + radii * size_ * DVec3(uniformSphere({rng_.uniform(), rng_.uniform()}));
+  }
+  DPoint3 inBox() {
+    const DVec3 u(rng_.uniform(), rng_.uniform(), rng_.uniform());
+    return DPoint3(box_.lo) + u * (DVec3(box_.hi) - DVec3(box_.lo));
+  }
+  // A ray that is likely to hit: from outside, sometimes from within.
+  ObjectRay ray() {
+    const DPoint3 o = rng_.uniform() < 0.8F ? around(1.01 + 4 * rng_.uniform()) : inBox();
+    return {o, (inBox() - o) * (0.2 + 2 * rng_.uniform())};
+  }
+
+  std::optional<Found> nearest(const ObjectRay& ray) const {
+    std::optional<Found> best;
+    for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
+      if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
+        best = Found{*hit, i};
+    return best;
+  }
+  // All crossings along a ray, each once.
+  template <class Visit>
+  void crossings(ObjectRay ray, Visit visit) const {
+    while (const auto found = nearest(ray)) {
+      visit(shape_->surface(ray, found->hit));
+      ray.tMin = std::nextafter(found->hit.t, kInfinity);
+    }
+  }
+  // Calls visit(ray, found, point) for `count` hits.
+  template <class Visit>
+  void forHits(int count, Visit visit) {
+    int hits = 0;
+    for (int tries = 0; hits < count && tries < 100 * count; ++tries) {
+      const ObjectRay r = ray();
+      const auto found = nearest(r);
+      if (!found) continue;
+      ++hits;
+      visit(r, *found, shape_->surface(r, found->hit));
+      if (HasFatalFailure()) return;
+    }
+    EXPECT_EQ(hits, count) << "the shape is hardly ever hit within its bounds";
+  }
+
+  std::unique_ptr<Shape> shape_;
+  Bounds3 box_;
+  DPoint3 centre_{0};
+  double size_ = 0;
+  Rng rng_{7};
+};
+
+inline std::string caseName(const testing::TestParamInfo<Case>& info) {
+  return info.param.shape + "_" + info.param.row.label;
+}
+inline void PrintTo(const Case& c, std::ostream* out) {
+  *out << c.shape << " " << c.row.label;
+}
+
+}  // namespace pbrt::test

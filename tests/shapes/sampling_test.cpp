@@ -1,0 +1,148 @@
+// The laws of every shape that can be an area light: what AreaSampler promises.
+
+#include "tests/shapes/conformance.h"
+
+namespace pbrt {
+namespace {
+
+// A mean that a random experiment estimates, and how sure it is.
+class Mean {
+ public:
+  void add(double x) {
+    ++n_;
+    const double delta = x - mean_;
+    mean_ += delta / n_;
+    squares_ += delta * (x - mean_);  // Welford 1962
+  }
+  double mean() const { return mean_; }
+  double variance() const { return squares_ / (n_ * std::max(1.0, n_ - 1)); }  // of the mean
+
+ private:
+  double n_ = 0, mean_ = 0, squares_ = 0;
+};
+
+// Five standard deviations: a right program fails one run in two million.
+void expectNear(double estimate, double expected, double variance, const char* what) {
+  EXPECT_NEAR(estimate, expected, 5 * std::sqrt(variance) + 1e-6 * expected) << what;
+}
+
+class Emitters : public test::Shapes {
+ protected:
+  void SetUp() override {
+    Shapes::SetUp();
+    if (!shape_) return;
+    sampler_ = shape_->areaSampler();
+    from_ = {around(100), around(3), around(1.05), around(0.4), around(0.2)};
+  }
+  // A direction out of all that may meet the shape, and one over its density.
+  DVec3 towards(const DPoint3& from, Point2 u, double& solidAngle) {
+    const DVec3 axis = centre_ - from;
+    if (glm::length(axis) <= size_) {
+      solidAngle = 4 * std::numbers::pi;
+      return uniformSphere(u);
+    }
+    const float cone = sphereConeHeight(axis, size_);
+    solidAngle = 1 / uniformConePdf(cone);
+    return Frame::fromZ(glm::normalize(axis)).fromLocal(uniformCone(u, cone));
+  }
+  // The integral of f over the unit square, by independent sums over jittered grids: each is far
+  // nearer to the integral than as many random points.
+  template <class F>
+  Mean integral(F f) {
+    constexpr int batches = 32, grid = 64;
+    Mean mean;
+    for (int k = 0; k < batches; ++k) {
+      double sum = 0;
+      for (int i = 0; i < grid; ++i)
+        for (int j = 0; j < grid; ++j)
+          sum += f((Point2(i, j) + Point2(rng_.uniform(), rng_.uniform())) / float{grid});
+      mean.add(sum / (grid * grid));
+    }
+    return mean;
+  }
+
+  const AreaSampler* sampler_ = nullptr;
+  std::vector<DPoint3> from_;
+};
+
+// Lines through a ball of radius R, uniform in direction and place, cross a surface of area A on
+// average A / (2 pi R^2) times (Crofton).
+TEST_P(Emitters, AreaIsHowOftenRandomLinesCross) {
+  Mean crossed;
+  const double disk = std::numbers::pi * size_ * size_;
+  for (int i = 0; i < 200000; ++i) {
+    const Frame frame = Frame::fromZ(uniformSphere({rng_.uniform(), rng_.uniform()}));
+    const Point2 d = concentricDisk({rng_.uniform(), rng_.uniform()});
+    const DVec3 z(frame.z), aside = DVec3(frame.fromLocal({d.x, d.y, 0}));
+    int count = 0;
+    crossings({centre_ + size_ * (aside - 1.1 * z), z}, [&](const SurfacePoint&) { ++count; });
+    crossed.add(count);
+  }
+  expectNear(2 * disk * crossed.mean(), sampler_->area(), sqr(2 * disk) * crossed.variance(),
+             "area");
+}
+
+TEST_P(Emitters, SamplesLieOnTheSurfaceWithTheDensityTheyTell) {
+  for (const DPoint3& from : from_)
+    for (int i = 0; i < 1000; ++i) {
+      const AreaSample s = sampler_->sample(from, {rng_.uniform(), rng_.uniform()});
+      ASSERT_TRUE(std::isfinite(s.pdf) && s.pdf >= 0);
+      if (s.pdf == 0) continue;
+      EXPECT_NEAR(sampler_->pdf(from, s.p, s.n), s.pdf, 1e-4F * s.pdf);
+      const double h = 1e-5 * size_;
+      const DVec3 n(s.n);
+      EXPECT_TRUE(nearest({s.p + h * n, -n, 0.999 * h - s.error, 1.001 * h + s.error}));
+    }
+}
+
+// The density of sample(), over all directions that meet the surface, has the integral one.
+TEST_P(Emitters, DensityIntegratesToOne) {
+  for (const DPoint3& from : from_) {
+    const Mean density = integral([&](Point2 u) {
+      double solidAngle = 0, sum = 0;
+      crossings({from, towards(from, u, solidAngle)},
+                [&](const SurfacePoint& s) { sum += sampler_->pdf(from, s.p, s.n); });
+      return sum * solidAngle;
+    });
+    expectNear(density.mean(), 1, density.variance(), "density");
+  }
+}
+
+// Each eighth of the shape fills as much of the view by samples as by directions. This holds only
+// if sample() has the density that pdf() tells, everywhere.
+TEST_P(Emitters, SamplesAndDirectionsSeeTheSame) {
+  const auto octant = [&](const DPoint3& p) {
+    return (p.x > centre_.x ? 1U : 0U) | (p.y > centre_.y ? 2U : 0U) | (p.z > centre_.z ? 4U : 0U);
+  };
+  for (const DPoint3& from : from_)
+    for (unsigned k = 0; k < 8; ++k) {
+      const Mean directions = integral([&](Point2 u) {
+        double solidAngle = 0, seen = 0;
+        crossings({from, towards(from, u, solidAngle)}, [&](const SurfacePoint& s) {
+          seen += octant(s.p) == k && sampler_->pdf(from, s.p, s.n) > 0 ? 1 : 0;
+        });
+        return seen * solidAngle;
+      });
+      const Mean samples = integral([&](Point2 u) {
+        const AreaSample s = sampler_->sample(from, u);
+        return s.pdf > 0 && octant(s.p) == k ? 1.0 / s.pdf : 0.0;
+      });
+      expectNear(samples.mean(), directions.mean(), samples.variance() + directions.variance(),
+                 "solid angle");
+    }
+}
+
+TEST_P(Emitters, WhatIsHitMayBeHit) {
+  for (int i = 0; i < 5000; ++i) {
+    const ObjectRay r = ray();
+    EXPECT_TRUE(!nearest(r) || sampler_->mayHit(r.o, r.d));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, Emitters, testing::ValuesIn(test::casesWhere([](Shape& s) {
+                           return s.areaSampler();
+                         })),
+                         test::caseName);
+
+}  // namespace
+}  // namespace pbrt
