@@ -104,15 +104,17 @@ class BestCandidateSampler final : public Sampler {
   Point2 get2D() override {
     keys_.nextDimension();
     const std::uint64_t key = keys_.pixel() ^ round_;
-    return shifted(*pattern_, permute(index_, count_, key),
-                   uniformPoint(mixBits(key)));
+    return shifted(*pattern_, permute(index_, count_, key), uniformPoint(mixBits(key)));
   }
 
-  // The set is the pattern's beginning; its shifts, one per sample, are well spread as well.
+  // One point in each cell of a grid for the set; in every cell the samples follow the pattern.
   void get2D(std::span<Point2> points) override {
     if (points.empty()) return;
-    const Point2 shift = get2D();
-    for (std::uint32_t i = 0; i < points.size(); ++i) points[i] = shifted(*pattern_, i, shift);
+    const auto count = static_cast<std::uint32_t>(points.size());
+    const Strata set(squarest(count));
+    const std::uint64_t order = mixBits(keys_.sample());
+    for (std::uint32_t i = 0; i < count; ++i)
+      points[permute(i, count, order)] = set.point(i, get2D());
   }
 
  private:

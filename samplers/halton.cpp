@@ -51,8 +51,7 @@ class HaltonSampler final : public Sampler {
         keys_(setup.seed),
         atCentre_(p.flag("samplepixelcenter", false, "every sample at its pixel's centre")) {
     for (std::size_t i = 0; i < kBases; ++i)
-      for (auto rest = static_cast<std::uint32_t>(samplesPerPixel() - 1); rest > 0; ++digits_[i])
-        rest /= kBase[i].prime;
+      digits_[i] = static_cast<std::uint8_t>(digits(kBase[i], samplesPerPixel()));
   }
 
   std::unique_ptr<Sampler> clone() const override { return std::make_unique<HaltonSampler>(*this); }
@@ -73,8 +72,7 @@ class HaltonSampler final : public Sampler {
     keys_.nextDimension();
     const std::size_t d = dimension_++;
     if (d >= kBases) return uniformPoint(keys_.sample()).x;
-    if (d > 0) return radicalInverse(kBase[d], digits_[d], index_, keys_.pixel());
-    return uniformFloat(reverseBits(nestedScramble(index_, keys_.pixel())));
+    return radicalInverse(d, digits_[d], index_, keys_.pixel());
   }
 
   Point2 get2D() override {
@@ -82,33 +80,57 @@ class HaltonSampler final : public Sampler {
     return {x, get1D()};
   }
 
+  // Sample i has elements i n to (i + 1) n of one sequence of points.
+  void get2D(std::span<Point2> points) override {
+    if (dimension_ + 2 > kBases) return Sampler::get2D(points);
+    const std::size_t d = dimension_;
+    dimension_ += 2;
+    const auto n = static_cast<std::uint32_t>(points.size());
+    const std::int64_t count = std::int64_t{samplesPerPixel()} * n;
+    const int digitsX = digits(kBase[d], count), digitsY = digits(kBase[d + 1], count);
+    keys_.nextDimension();
+    const std::uint64_t keyX = keys_.pixel();
+    keys_.nextDimension();
+    const std::uint64_t keyY = keys_.pixel();
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const std::uint32_t index = (index_ * n + i) & 0x7fffffffU;
+      points[i] = {radicalInverse(d, digitsX, index, keyX),
+                   radicalInverse(d + 1, digitsY, index, keyY)};
+    }
+  }
+
  private:
+  // How many digits number `count` samples.
+  static int digits(const Base& base, std::int64_t count) {
+    int n = 0;
+    for (std::int64_t power = 1; power < count; power *= base.prime) ++n;
+    return n;
+  }
+
   // Owen's scrambling (1995): every digit goes through a random permutation that depends on the
   // digits before it. The permutations are affine, d -> a d + b mod p, which is as good as any:
   // the variance depends on the joint distribution of pairs only, and two different digits go to
   // every pair of different digits with the same probability (Matousek 1998, "On the
   // L2-Discrepancy for Anchored Boxes"). What follows the digits of the largest index is random.
-  static float radicalInverse(const Base& base, int digits, std::uint32_t index,
+  static float radicalInverse(std::size_t dimension, int digits, std::uint32_t index,
                               std::uint64_t key) {
+    if (dimension == 0) return uniformFloat(reverseBits(nestedScramble(index, key)));
+    const Base& base = kBase[dimension];
     const std::uint32_t p = base.prime;
-    std::uint64_t reversed = 0;
-    std::uint64_t prefix = 1;  // p^k + (index mod p^k): the first k digits
-    std::uint64_t power = 1;   // p^k
-    double scale = 1;          // 1 / p^k
+    std::int64_t reversed = 0;
+    double scale = 1;
     for (std::uint32_t rest = index; digits > 0 || rest > 0; --digits) {
       const std::uint32_t next = base.quotient(rest);
       const std::uint32_t digit = rest - next * p;
-      const std::uint64_t random = mixBits(key + prefix);
-      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(random), p - 1);
-      const auto b = scaleBits(static_cast<std::uint32_t>(random >> 32U), p);
+      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(key), p - 1);
+      const auto b = scaleBits(static_cast<std::uint32_t>(key >> 32U), p);
       const std::uint32_t affine = a * digit + b;
       reversed = reversed * p + (affine - base.quotient(affine) * p);
-      prefix += power * (p - 1 + digit);
-      power *= p;
       scale *= base.inverse;
+      key = mixBits(key + digit);
       rest = next;
     }
-    const double tail = static_cast<double>(mixBits(key + prefix) >> 32U) * 0x1p-32;
+    const double tail = uniformFloat(static_cast<std::uint32_t>(key));
     return std::min(static_cast<float>((static_cast<double>(reversed) + tail) * scale),
                     kOneMinusEpsilon);
   }

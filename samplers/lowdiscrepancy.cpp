@@ -1,5 +1,5 @@
-// Sobol's (0,2)-sequence in every pair of dimensions: any 2^k first samples of a pixel lie one
-// each in the boxes of every grid of 2^a by 2^(k - a) equal boxes.
+// Sobol's (0,2)-sequence in every pair of dimensions: a pixel's samples lie one each in the boxes
+// of every grid of 2^a by 2^b equal boxes that has as many boxes as there are samples.
 
 #include "core/base/lowdiscrepancy.h"
 
@@ -24,28 +24,40 @@ class LowDiscrepancySampler final : public Sampler {
 
   void start(Point2i pixel, std::uint32_t index) override {
     keys_.start(pixel, index);
-    index_ = index;
     reversed_ = reverseBits(index);
+    index_ = index & (static_cast<std::uint32_t>(samplesPerPixel()) - 1U);
+    round_ = reverseBits(index - index_);
+  }
+
+  // Any 2^k first samples of a pixel are spread as well as all of them.
+  Point2 pixel2D() override {
+    keys_.nextDimension();
+    const std::uint64_t key = keys_.pixel();
+    return point(nestedScramble(reversed_, key), key, keys_.sample(), resolution_);
   }
 
   float get1D() override { return get2D().x; }
 
   Point2 get2D() override {
     keys_.nextDimension();
-    return point(reversed_, keys_.pixel(), keys_.sample(), resolution_);
+    const std::uint64_t key = keys_.pixel();
+    return point(shuffled(key), key, keys_.sample(), resolution_);
   }
 
-  // Sample i has points i n to (i + 1) n of one sequence, with n a power of two.
+  // Every sample has a run of 2^k consecutive points of one sequence, in any order: the set and
+  // all sets of the pixel together have the sequence's spread.
   void get2D(std::span<Point2> points) override {
     if (points.empty()) return;
     keys_.nextDimension();
-    const int log = std::bit_width(points.size() - 1);
-    const int resolution = std::min(resolution_ + log, 31);
-    const std::uint64_t shuffle = keys_.pixel();
-    std::uint64_t jitter = keys_.sample();
+    const auto size = static_cast<std::uint32_t>(std::bit_ceil(points.size()));
+    const int log = std::bit_width(size) - 1;
+    const std::uint64_t key = keys_.pixel(), order = keys_.sample();
+    const std::uint32_t run = shuffled(key) >> log;
+    std::uint64_t jitter = order;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
-      points[i] = point(reverseBits((index_ << log) + i), shuffle, jitter, resolution);
       jitter = mixBits(jitter + i);
+      points[i] = point(leading(permute(i, size, order), log) | run, key, jitter,
+                        std::min(resolution_ + log, 31));
     }
   }
 
@@ -61,24 +73,38 @@ class LowDiscrepancySampler final : public Sampler {
     return rounded;
   }
 
-  // A shuffle of the indices decorrelates the dimensions, a random shift of the digits the pixels
-  // (Kollig and Keller 2002, "Efficient Multidimensional Sampling", section 3). The whole lies on
-  // a lattice of 2^-resolution; a random rest below it makes the estimate unbiased and is worth
-  // as much for smooth integrands as Owen's scrambling, at a third of its time.
-  static Point2 point(std::uint32_t reversedIndex, std::uint64_t key, std::uint64_t jitter,
-                      int resolution) {
-    const std::uint32_t x = nestedScramble(reversedIndex, key);
+  // The lowest `bits` bits of v as the first of 32.
+  static std::uint32_t leading(std::uint32_t v, int bits) {
+    return static_cast<std::uint32_t>(std::uint64_t{v} << (32 - bits));
+  }
+
+  // The reversed index of the sample in another order of the pixel's samples. It is random, not
+  // nested: if pairs of samples stayed pairs, then wherever one dimension is in its other half all
+  // would be, and products of dimensions were known worse by a quarter.
+  std::uint32_t shuffled(std::uint64_t key) const {
+    const auto count = static_cast<std::uint32_t>(samplesPerPixel());
+    return leading(permute(index_, count, key), resolution_) | round_;
+  }
+
+  // The point of the sequence whose first coordinate is x, its digits shifted at random (Kollig
+  // and Keller 2002, "Efficient Multidimensional Sampling", section 3). That lies on a lattice of
+  // 2^-resolution; the jitter fills the cells, so that the estimate is unbiased. For smooth
+  // integrands it is worth as much as Owen's scrambling, at less than half of its time.
+  static Point2 point(std::uint32_t x, std::uint64_t key, std::uint64_t jitter, int resolution) {
     const std::uint64_t shift = key * 0x9e3779b97f4a7c15ULL;
     const auto shiftX = static_cast<std::uint32_t>(shift >> 32U);
     const auto shiftY = static_cast<std::uint32_t>(shift >> 8U) ^ static_cast<std::uint32_t>(key);
-    return {uniformFloat(x ^ shiftX ^ static_cast<std::uint32_t>(jitter) >> resolution),
-            uniformFloat(sobolSecond(x) ^ shiftY ^
-                         static_cast<std::uint32_t>(jitter >> 32U) >> resolution)};
+    const auto jitterX = static_cast<std::uint32_t>(jitter >> 32U);
+    const auto jitterY = static_cast<std::uint32_t>(jitter);
+    return {uniformFloat(x ^ shiftX ^ jitterX >> resolution),
+            uniformFloat(sobolSecond(x) ^ shiftY ^ jitterY >> resolution)};
   }
 
   SampleKeys keys_;
-  int resolution_;  // samplesPerPixel() is 2 to this power
-  std::uint32_t index_ = 0, reversed_ = 0;
+  int resolution_;              // samplesPerPixel() is 2 to this power
+  std::uint32_t reversed_ = 0;  // the sample's index, bits reversed
+  std::uint32_t index_ = 0;     // modulo samplesPerPixel()
+  std::uint32_t round_ = 0;     // the rest of it, reversed
 };
 
 }  // namespace

@@ -6,37 +6,6 @@
 namespace pbrt {
 namespace {
 
-struct Grid {
-  int x = 1, y = 1;
-};
-
-// x y = n with x as near below y as it can be: 1 by n if n is prime.
-Grid grid(int n) {
-  int x = static_cast<int>(std::sqrt(static_cast<double>(n)));
-  while (n % x != 0) --x;
-  return {x, n / x};
-}
-
-// A strata count on each axis, with what turns the number of a cell into its place.
-class Strata {
- public:
-  explicit Strata(Grid g) : x_(g.x), inverseX_(1.0 / g.x), width_(1.F / g.x), height_(1.F / g.y) {}
-
-  // The point at `offset` within cell i.
-  Point2 point(std::uint32_t i, Point2 offset) const {
-    // Half a cell is more than the rounding of the quotient, for every 32-bit i.
-    const auto row = static_cast<int>((i + 0.5) * inverseX_);
-    const auto column = static_cast<int>(i) - row * x_;
-    const Point2 p((column + offset.x) * width_, (row + offset.y) * height_);
-    return glm::min(p, Point2(kOneMinusEpsilon));
-  }
-
- private:
-  int x_;
-  double inverseX_;
-  float width_, height_;
-};
-
 class StratifiedSampler final : public Sampler {
  public:
   StratifiedSampler(Params& p, const Setup& setup) : StratifiedSampler(read(p), p, setup) {}
@@ -65,23 +34,27 @@ class StratifiedSampler final : public Sampler {
   // after the other: both the set and all the samples together are stratified.
   void get2D(std::span<Point2> points) override {
     if (points.empty()) return;
-    const Strata set(grid(static_cast<int>(points.size())));
-    for (std::uint32_t i = 0; i < points.size(); ++i) points[i] = set.point(i, get2D());
+    const auto count = static_cast<std::uint32_t>(points.size());
+    const Strata set(squarest(count));
+    const std::uint64_t order = mixBits(keys_.sample());
+    for (std::uint32_t i = 0; i < count; ++i)
+      points[permute(i, count, order)] = set.point(i, get2D());
   }
 
  private:
-  static Grid read(Params& p) {
+  static Point2i read(Params& p) {
     constexpr int most = std::numeric_limits<int>::max();
-    const Grid g{p.integer("xsamples", 4, 1, most, "cells across a pixel"),
-                 p.integer("ysamples", 4, 1, most, "cells down a pixel")};
+    const Point2i g{p.integer("xsamples", 4, 1, most, "cells across a pixel"),
+                    p.integer("ysamples", 4, 1, most, "cells down a pixel")};
     if (g.x > most / g.y) p.fail("xsamples", "xsamples times ysamples is too large");
     return g;
   }
 
-  StratifiedSampler(Grid scene, Params& p, const Setup& setup)
+  StratifiedSampler(Point2i scene, Params& p, const Setup& setup)
       : Sampler(setup.samplesPerPixel.value_or(scene.x * scene.y)),
         keys_(setup.seed),
-        strata_(setup.samplesPerPixel ? grid(*setup.samplesPerPixel) : scene),
+        strata_(setup.samplesPerPixel ? squarest(static_cast<std::uint32_t>(*setup.samplesPerPixel))
+                                      : scene),
         count_(static_cast<std::uint32_t>(samplesPerPixel())),
         cellWidth_(1.F / static_cast<float>(count_)),
         jitter_(p.flag("jitter", true, "a random place within the cell, not its centre")) {

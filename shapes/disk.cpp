@@ -33,7 +33,7 @@ class Disk final : public Shape, public AreaSampler {
 
   SurfacePoint surface(const ObjectRay& ray, const ShapeHit& hit) const override {
     const DPoint3 p = ray.at(double{hit.t} + hit.u);
-    const double rho = std::hypot(p.x, p.y);
+    const double rho = std::sqrt(p.x * p.x + p.y * p.y);
     const DVec3 outward = rho > 0 ? DVec3(p.x, p.y, 0) / rho : DVec3(1, 0, 0);
     const DVec3 dpdu = phiMax_ * rho * DVec3(-outward.y, outward.x, 0);
     const DVec3 dpdv = (inner_ - radius_) * outward;

@@ -32,12 +32,13 @@ struct HalfEdges {
   template <class Visit>
   void around(std::uint32_t v, Visit visit) const {
     std::uint32_t h = out[v];
-    do {
-      visit(end(h));
+    visit(end(h));
+    while (h != kNone) {
       const std::uint32_t before = previous(h);
       h = twin[before];
-      if (h == kNone) return visit(vertex[before]);
-    } while (h != out[v]);
+      if (h == out[v]) return;
+      visit(vertex[before]);
+    }
   }
 };
 
@@ -94,37 +95,78 @@ float beta(int n) {
   return n == 3 ? 3.F / 16 : 3 / (8 * static_cast<float>(n));
 }
 
-struct Ring {
-  int valence = 0;
-  Vec3 sum{0};
-  Point3 first{}, last{};
+// Weight of each neighbour for the limit of an inner vertex: the left eigenvector of the
+// subdivision matrix for the eigenvalue one.
+float limitWeight(int n) {
+  return 1 / (static_cast<float>(n) + 3 / (8 * beta(n)));
+}
+
+// A vertex and the edges from it to its neighbours, counter-clockwise.
+class OneRing {
+ public:
+  void gather(const HalfEdges& mesh, const std::vector<Point3>& points, std::uint32_t v) {
+    centre_ = points[v];
+    boundary_ = mesh.boundary(v);
+    spokes_.clear();
+    mesh.around(v, [&](std::uint32_t w) { spokes_.push_back(points[w] - centre_); });
+  }
+
+  // The vertex moved towards its neighbours: towards those on the boundary if it lies there.
+  Point3 smooth(float boundaryWeight, float (*innerWeight)(int)) const {
+    if (boundary_) return centre_ + boundaryWeight * (spokes_.front() + spokes_.back());
+    Vec3 sum(0);
+    for (const Vec3& spoke : spokes_) sum += spoke;
+    return centre_ + innerWeight(static_cast<int>(spokes_.size())) * sum;
+  }
+
+  // The normal of the limit surface, or zero. Tangents are the left eigenvectors of the
+  // subdivision matrix for its second eigenvalue (Hoppe et al. 1994, section 3 and appendix).
+  Normal3 limitNormal() {
+    const Vec3 n = boundary_ ? boundaryNormal() : innerNormal();
+    const float length = glm::length(n);
+    return length > 0 ? n / length : n;
+  }
+
+ private:
+  Vec3 innerNormal() {
+    const std::size_t n = spokes_.size();
+    if (circle_.size() != n) {  // nearly every vertex has six neighbours
+      circle_.resize(n);
+      for (std::size_t i = 0; i < n; ++i) {
+        const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
+        circle_[i] = {std::cos(angle), std::sin(angle)};
+      }
+    }
+    Vec3 s(0), t(0);
+    for (std::size_t i = 0; i < n; ++i) {
+      s += circle_[i].x * spokes_[i];
+      t += circle_[i].y * spokes_[i];
+    }
+    return glm::cross(s, t);
+  }
+
+  Vec3 boundaryNormal() const {
+    const std::size_t n = spokes_.size();
+    const Vec3 along = spokes_.front() - spokes_.back();
+    if (n == 2) return glm::cross(along, spokes_[0] + spokes_[1]);
+    if (n == 3) return glm::cross(along, spokes_[1]);
+    if (n == 4) return glm::cross(along, 2.F * (spokes_[1] + spokes_[2]) - spokes_[0] - spokes_[3]);
+    const float theta = kPi / static_cast<float>(n - 1);
+    Vec3 inward = -std::sin(theta) * (spokes_.front() + spokes_.back());
+    for (std::size_t i = 1; i + 1 < n; ++i)
+      inward += (2 - 2 * std::cos(theta)) * std::sin(static_cast<float>(i) * theta) * spokes_[i];
+    return glm::cross(along, inward);
+  }
+
+  Point3 centre_{};
+  bool boundary_ = false;
+  std::vector<Vec3> spokes_;
+  std::vector<Vec2> circle_;  // as many points of the unit circle
 };
-
-Ring ring(const HalfEdges& mesh, const std::vector<Point3>& points, std::uint32_t v) {
-  Ring r;
-  mesh.around(v, [&](std::uint32_t w) {
-    r.last = points[w];
-    if (r.valence++ == 0) r.first = r.last;
-    r.sum += r.last;
-  });
-  return r;
-}
-
-// The point moved towards its neighbours: those of the boundary by the weight given for it, all of
-// them by `inner(valence)` otherwise.
-template <class Inner>
-Point3 smooth(const HalfEdges& mesh, const std::vector<Point3>& points, std::uint32_t v,
-              float boundaryWeight, Inner inner) {
-  const Ring r = ring(mesh, points, v);
-  if (mesh.boundary(v))
-    return (1 - 2 * boundaryWeight) * points[v] + boundaryWeight * (r.first + r.last);
-  const float weight = inner(r.valence);
-  return (1 - static_cast<float>(r.valence) * weight) * points[v] + weight * r.sum;
-}
 
 // One step: each triangle becomes four. Child k < 3 of triangle f is (corner k, middle of edge k,
 // middle of the edge before); child 3 is (middle 0, middle 1, middle 2).
-void subdivide(HalfEdges& mesh, std::vector<Point3>& points) {
+void subdivide(HalfEdges& mesh, std::vector<Point3>& points, OneRing& ring) {
   const auto count = static_cast<std::uint32_t>(mesh.vertex.size());
   const auto old = static_cast<std::uint32_t>(points.size());
 
@@ -134,7 +176,8 @@ void subdivide(HalfEdges& mesh, std::vector<Point3>& points) {
   for (std::uint32_t v = 0; v < old; ++v) {
     finer[v] = points[v];
     if (mesh.out[v] == kNone) continue;
-    finer[v] = smooth(mesh, points, v, 1.F / 8, beta);
+    ring.gather(mesh, points, v);
+    finer[v] = ring.smooth(1.F / 8, beta);
     fine.out[v] = 12 * (mesh.out[v] / 3) + 3 * (mesh.out[v] % 3);
   }
 
@@ -176,53 +219,6 @@ void subdivide(HalfEdges& mesh, std::vector<Point3>& points) {
   points = std::move(finer);
 }
 
-// Normals of the limit surface. Tangents are the left eigenvectors of the subdivision matrix for
-// its second eigenvalue (Hoppe et al. 1994, section 3; appendix for the boundary).
-class LimitNormals {
- public:
-  Normal3 operator()(const HalfEdges& mesh, const std::vector<Point3>& points, std::uint32_t v) {
-    spokes_.clear();
-    mesh.around(v, [&](std::uint32_t w) { spokes_.push_back(points[w] - points[v]); });
-    const Vec3 n = mesh.boundary(v) ? boundary() : inner();
-    const float length = glm::length(n);
-    return length > 0 ? n / length : n;
-  }
-
- private:
-  Vec3 inner() {
-    const std::size_t n = spokes_.size();
-    if (circle_.size() != n) {  // nearly every vertex has six neighbours
-      circle_.resize(n);
-      for (std::size_t i = 0; i < n; ++i) {
-        const float angle = 2 * kPi * static_cast<float>(i) / static_cast<float>(n);
-        circle_[i] = {std::cos(angle), std::sin(angle)};
-      }
-    }
-    Vec3 s(0), t(0);
-    for (std::size_t i = 0; i < n; ++i) {
-      s += circle_[i].x * spokes_[i];
-      t += circle_[i].y * spokes_[i];
-    }
-    return glm::cross(s, t);
-  }
-
-  Vec3 boundary() const {
-    const std::size_t n = spokes_.size();
-    const Vec3 along = spokes_.front() - spokes_.back();
-    if (n == 2) return glm::cross(along, spokes_[0] + spokes_[1]);
-    if (n == 3) return glm::cross(along, spokes_[1]);
-    if (n == 4) return glm::cross(along, 2.F * (spokes_[1] + spokes_[2]) - spokes_[0] - spokes_[3]);
-    const float theta = kPi / static_cast<float>(n - 1);
-    Vec3 inward = -std::sin(theta) * (spokes_.front() + spokes_.back());
-    for (std::size_t i = 1; i + 1 < n; ++i)
-      inward += (2 - 2 * std::cos(theta)) * std::sin(static_cast<float>(i) * theta) * spokes_[i];
-    return glm::cross(along, inward);
-  }
-
-  std::vector<Vec3> spokes_;  // to the neighbours, counter-clockwise
-  std::vector<Vec2> circle_;  // as many points of the unit circle
-};
-
 }  // namespace
 
 class LoopSubdiv final : public MeshShape {
@@ -236,24 +232,24 @@ class LoopSubdiv final : public MeshShape {
     p.require("P");
     HalfEdges mesh = connect(p, readIndices(p, points.size(), levels), points.size());
 
-    for (int i = 0; i < levels; ++i) subdivide(mesh, points);
+    OneRing ring;
+    for (int i = 0; i < levels; ++i) subdivide(mesh, points, ring);
 
     mesh_.positions = points;
     mesh_.normals.resize(points.size());
-    LimitNormals normals;
     for (std::uint32_t v = 0; v < points.size(); ++v) {
       if (mesh.out[v] == kNone) continue;
-      mesh_.positions[v] = smooth(mesh, points, v, 1.F / 5, [](int n) {
-        return 1 / (static_cast<float>(n) + 3 / (8 * beta(n)));
-      });
-      mesh_.normals[v] = normals(mesh, points, v);
+      ring.gather(mesh, points, v);
+      mesh_.positions[v] =
+          ring.smooth(1.F / 5, limitWeight);  // on boundaries pbrt's weight; exact: 1/6
+      mesh_.normals[v] = ring.limitNormal();
     }
     mesh_.indices = std::move(mesh.vertex);
   }
 
  private:
   static constexpr int kMaxLevels = 12;
-  static constexpr std::size_t kMaxTriangles = std::size_t{1} << 28;
+  static constexpr std::size_t kMaxTriangles = std::size_t{1} << 26;
 
   static std::vector<std::uint32_t> readIndices(Params& p, std::size_t vertices, int levels) {
     const std::vector<int> given = p.integers("indices", "three vertices a triangle, from 0");

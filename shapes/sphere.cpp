@@ -13,6 +13,7 @@ class Sphere final : public Shape, public AreaSampler {
     const float phiMax = p.inRange("phimax", 360, 0.01F, 360, "sweep about z", "degrees");
     z0_ = std::max(std::min(a, b), -r_), z1_ = std::min(std::max(a, b), r_);
     if (!(z0_ < z1_)) p.fail("zmax", "leaves nothing of the sphere above zmin");
+    theta0_ = std::acos(z0_ / r_), theta1_ = std::acos(z1_ / r_);  // v runs from 0 to 1 there
     phiMax_ = glm::radians(double{phiMax});
     whole_ = z0_ == -r_ && z1_ == r_ && phiMax == 360;
   }
@@ -38,12 +39,10 @@ class Sphere final : public Shape, public AreaSampler {
 
   SurfacePoint surface(const ObjectRay& ray, const ShapeHit& hit) const override {
     const DVec3 n = glm::normalize(ray.at(double{hit.t} + hit.u));
-    // v runs from the polar angle of zmin to that of zmax.
-    const double theta0 = std::acos(z0_ / r_), sweep = std::acos(z1_ / r_) - theta0;
-    const double rho = std::hypot(n.x, n.y), theta = std::atan2(rho, n.z);
+    const double rho = std::sqrt(n.x * n.x + n.y * n.y), theta = std::atan2(rho, n.z);
     const DVec3 east = rho > 0 ? DVec3(-n.y, n.x, 0) / rho : DVec3(0, 1, 0);
-    const DVec3 dndu = phiMax_ * rho * east, dndv = sweep * glm::cross(east, n);
-    const Point2 uv(phi(n) / phiMax_, (theta - theta0) / sweep);
+    const DVec3 dndu = phiMax_ * rho * east, dndv = (theta1_ - theta0_) * glm::cross(east, n);
+    const Point2 uv(phi(n) / phiMax_, (theta - theta0_) / (theta1_ - theta0_));
     return {r_ * n, 1e-15 * r_, n, Normal3(0), uv, r_ * dndu, r_ * dndv, dndu, dndv};
   }
 
@@ -70,7 +69,7 @@ class Sphere final : public Shape, public AreaSampler {
   bool covers(const DPoint3& p) const { return p.z >= z0_ && p.z <= z1_ && phi(p) <= phiMax_; }
   bool seenInCone(const DPoint3& from) const { return whole_ && lengthSquared(from) > r_ * r_; }
 
-  double r_, z0_, z1_, phiMax_;
+  double r_, z0_, z1_, theta0_, theta1_, phiMax_;
   bool whole_;
 };
 

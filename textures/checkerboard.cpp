@@ -40,7 +40,7 @@ class Checkerboard final : public Texture<T> {
         tex2_(p.texture<T>("tex2", 0, "in the other cells")),
         toTexture_(setup.placement.inverse()) {
     if (dimension_ == 3) return;
-    mapping_ = readMapping(p, setup.placement);
+    mapping_ = readMapping(p, setup.placement, setup.world);
     constexpr std::string_view modes[] = {"none", "closedform", "supersample"};
     filtered_ = p.choice("aamode", modes, "closedform",
                          "how a pixel's footprint is averaged; supersample is taken for "

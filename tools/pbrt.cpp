@@ -55,11 +55,9 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("--cropwindow", o.cropWindow,
                  "The part to render: x0 x1 y0 y1 or x0,x1,y0,y1, "
                  "each from 0 to 1")
-      ->expected(4)
-      ->delimiter(',');
+      ->expected(4);
   app.add_option("--pixelbounds", o.pixelBounds, "The part to render in pixels: x0,x1,y0,y1")
-      ->expected(4)
-      ->delimiter(',');
+      ->expected(4);
   app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
   app.add_flag("--quiet", o.quiet, "Say nothing but errors");
   app.add_flag("--stats", o.stats, "Tell times, rays, memory and the plug-ins that were opened");
@@ -73,6 +71,24 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3")
       ->check(CLI::IsMember({"v1", "v2", "v3"}));
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
+}
+
+// The words of the command line, the last first as CLI11 wants them. pbrt-v4 writes a window as
+// x0,x1,y0,y1; it becomes the four words that pbrt-v3 has.
+std::vector<std::string> words(int argc, char** argv) {
+  std::vector<std::string> result;
+  for (int i = 1; i < argc; ++i) {
+    const bool window = i > 1 && (argv[i - 1] == std::string_view("--cropwindow") ||
+                                  argv[i - 1] == std::string_view("--pixelbounds"));
+    std::string_view word = argv[i];
+    for (std::size_t comma; window && (comma = word.find(',')) != word.npos;) {
+      result.emplace_back(word.substr(0, comma));
+      word.remove_prefix(comma + 1);
+    }
+    result.emplace_back(word);
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
 }
 
 void finishOptions(Options& o) {
@@ -194,7 +210,7 @@ int main(int argc, char** argv) {
   CLI::App app("pbrt renders scenes described in the pbrt format.", "pbrt");
   pbrt::defineOptions(app, options);
   try {
-    app.parse(argc, argv);
+    app.parse(pbrt::words(argc, argv));
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kUsage;
   }

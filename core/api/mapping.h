@@ -64,16 +64,16 @@ struct CylindricalMapping {
   }
 };
 
-// Coordinates along two vectors of texture space.
+// Coordinates along two vectors of world space (not of texture space: so it is in every pbrt).
 struct PlanarMapping {
-  Transform toTexture;  // from render space
+  Transform toWorld;  // from render space
   DVec3 v1{1, 0, 0}, v2{0, 1, 0};
   Vec2 offset{0};
 
   TexturePoint operator()(const SurfaceInteraction& at) const {
     const auto along = [&](const DVec3& v) { return Vec2(glm::dot(v, v1), glm::dot(v, v2)); };
-    return {along(toTexture.point(DPoint3(at.p))) + offset, along(toTexture.vector(DVec3(at.dpdx))),
-            along(toTexture.vector(DVec3(at.dpdy)))};
+    return {along(toWorld.point(DPoint3(at.p))) + offset, along(toWorld.vector(DVec3(at.dpdx))),
+            along(toWorld.vector(DVec3(at.dpdy)))};
   }
 };
 

@@ -11,9 +11,10 @@ template <class T>
 class Texture {
  public:
   // `placement` maps the texture's own space to render space (the transform in force at its
-  // Texture directive).
+  // Texture directive), `world` world space.
   struct Setup {
     Transform placement;
+    Transform world;
   };
 
   virtual ~Texture() = default;

@@ -64,6 +64,35 @@ constexpr std::uint32_t permute(std::uint32_t i, std::uint32_t n, std::uint64_t 
   return i >= n ? i - n : i;
 }
 
+// Columns and rows of a grid of n cells, columns as near below rows as they can be: 1 by n if n is
+// prime. n > 0.
+inline Point2i squarest(std::uint32_t n) {
+  auto columns = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(n)));
+  while (n % columns != 0) --columns;
+  return {columns, n / columns};
+}
+
+// The cells of a grid over the unit square, numbered row by row.
+class Strata {
+ public:
+  explicit Strata(Point2i grid)
+      : columns_(grid.x), inverse_(1.0 / grid.x), width_(1.F / grid.x), height_(1.F / grid.y) {}
+
+  // The point at `offset`, a part of the cell's size, within cell i.
+  Point2 point(std::uint32_t i, Point2 offset) const {
+    // Half a cell is more than the rounding of the quotient, for every 32-bit i.
+    const auto row = static_cast<int>((i + 0.5) * inverse_);
+    const auto column = static_cast<int>(i) - row * columns_;
+    const Point2 p((column + offset.x) * width_, (row + offset.y) * height_);
+    return glm::min(p, Point2(kOneMinusEpsilon));
+  }
+
+ private:
+  int columns_;
+  double inverse_;
+  float width_, height_;
+};
+
 constexpr std::uint32_t reverseBits(std::uint32_t v) {
   v = v << 16U | v >> 16U;
   v = (v & 0x00ff00ffU) << 8U | (v >> 8U & 0x00ff00ffU);

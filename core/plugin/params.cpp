@@ -74,17 +74,18 @@ void Params::declare(const std::string& name, std::string_view type, std::string
 }
 
 // The value to use for a name, or null. Of the same name twice in one list the last one counts, as
-// in every pbrt.
+// in every pbrt; one that another list hides counts as read.
 const Param* Params::find(const std::string& name, std::span<const ParamType> types,
                           std::string_view wanted) {
   const Param* found = nullptr;
   for (Use& use : uses_) {
+    const Param* here = nullptr;
     for (std::size_t i = 0; i < use.list->size(); ++i)
       if ((*use.list)[i].name == name) {
         use.read[i] = true;
-        found = &(*use.list)[i];
+        here = &(*use.list)[i];
       }
-    if (found) break;
+    if (!found) found = here;
   }
   if (!found && defaults_)
     for (const Param& p : *defaults_)

@@ -53,8 +53,8 @@ bool SceneBuilder::handleStack(const Directive& d) {
 
 void SceneBuilder::restore(const Directive& d, bool wholeState) {
   if (stack_.empty() || stack_.back().wholeState != wholeState)
-    throw Error(d.where, fmt::format("{} without a {}", directiveName(d.kind),
-                                     wholeState ? "AttributeBegin" : "TransformBegin"));
+    throw Error(d.where, fmt::format("{} without {}", directiveName(d.kind),
+                                     wholeState ? "an AttributeBegin" : "a TransformBegin"));
   if (wholeState) attributes_ = std::move(stack_.back().attributes);
   transforms_.setCurrent(stack_.back().transform);
   stack_.pop_back();
@@ -155,8 +155,11 @@ bool SceneBuilder::handleAttribute(Directive& d) {
             fmt::format("a texture is \"float\", \"color\" or \"spectrum\", not \"{}\"", type));
       attributes_.textures = std::make_shared<TextureScope>(
           attributes_.textures, d.words.at(0), isSpectrum,
-          TextureScope::Definition{d.words.at(2), std::move(d.params), d.where,
-                                   transforms_.current(), attributes_.textures});
+          TextureScope::Definition{d.words.at(2),
+                                   std::move(d.params),
+                                   d.where,
+                                   {transforms_.current(), transforms_.base()},
+                                   attributes_.textures});
       return true;
     }
     default:

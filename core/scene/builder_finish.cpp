@@ -83,6 +83,8 @@ void SceneBuilder::makeCameraAndFilm() {
   if (const auto screen = scene_->camera_->screenFromCamera())
     scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.matrix();
 
+  if (integrator_)
+    translateParameters(factory_.dialect(), PluginKind::integrator, integrator_->params);
   const Directive& integrator =
       option(integrator_, DirectiveKind::Integrator, defaults_.integrator);
   scene_->integrator_ =

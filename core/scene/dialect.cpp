@@ -49,6 +49,8 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {{v2}, PluginKind::material, "plastic", {text("distribution", "blinn")}},
       {{v1}, PluginKind::camera, "perspective", {number("hither", 1e-3F)}},
       {{v1}, PluginKind::camera, "orthographic", {number("hither", 1e-3F)}},
+      {{v1}, PluginKind::integrator, "whitted", {count("maxdepth", 6)}},
+      {{v1}, PluginKind::integrator, "directlighting", {count("maxdepth", 6)}},
       {{v1, v2}, PluginKind::sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
       {{v1}, PluginKind::sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
   };
@@ -117,6 +119,14 @@ const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::
   for (const DefaultsRow& row : defaultsTable())
     if (row.kind == kind && row.name == name && row.dialects.contains(dialect)) return row.defaults;
   return none;
+}
+
+void translateParameters(Dialect dialect, PluginKind kind, ParamList& params) {
+  if (dialect != Dialect::v1 || kind != PluginKind::integrator) return;
+  for (Param& param : params)
+    if (auto* values = std::get_if<std::vector<int>>(&param.values);
+        values && param.name == "maxdepth")
+      for (int& depth : *values) depth += depth < std::numeric_limits<int>::max() ? 1 : 0;
 }
 
 const Alias* findAlias(PluginKind kind, std::string_view name) {

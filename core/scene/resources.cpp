@@ -71,8 +71,8 @@ std::shared_ptr<const Texture<T>> TextureScope::find(const std::string& name, En
   Entry<T>& entry = *found->second;
   if (!entry.built) {
     const Definition& d = entry.definition;
-    entry.built =
-        factory_.make<Texture<T>>(d.plugin, d.params, d.where, {d.placement}, d.scope.get());
+    entry.built = factory_.make<Texture<T>>(d.plugin, d.params, d.where,
+                                            {d.place.placement, d.place.world}, d.scope.get());
   }
   return entry.built;
 }

@@ -58,7 +58,7 @@ class TextureScope final : public TextureLibrary {
     std::string plugin;
     ParamList params;
     Location where;
-    Transform placement;
+    Texture<float>::Setup place;
     std::shared_ptr<TextureScope> scope;  // of the textures that it may name itself
   };
 

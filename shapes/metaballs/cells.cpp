@@ -44,6 +44,19 @@ Bounds3 above(Bounds3 box, int axis, double at) {
   return roundOutward(lo, DPoint3(box.hi));
 }
 
+// The same question asked of the eight octants: their bounds are tighter. Inside a dense set this
+// is what tells that a small cell is all inside.
+bool octantsMayMeetSurface(const Field& field, const Bounds3& box, AtomList list) {
+  const Point3 middle = box.centre();
+  for (int i = 0; i < 8; ++i) {
+    Bounds3 octant = box;
+    for (int axis = 0; axis < 3; ++axis)
+      ((i >> axis & 1) ? octant.lo : octant.hi)[axis] = middle[axis];
+    if (mayMeetSurface(field, octant, list)) return true;
+  }
+  return false;
+}
+
 // Cuts slices off the six sides for as long as the surface is provably not in them.
 Bounds3 shave(const Field& field, Bounds3 box, AtomList list) {
   for (const double part : {0.5, 0.25, 0.125})
@@ -92,6 +105,7 @@ void Cells::split(const Field& field, const Bounds3& box, AtomList parents) {
     }
   }
 
+  if (!octantsMayMeetSurface(field, box, list)) return;
   const Bounds3 tight = shave(field, box, list);
   const std::vector<std::uint32_t> near = reaching(field, tight, list);
   if (!mayMeetSurface(field, tight, near)) return;

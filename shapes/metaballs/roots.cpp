@@ -38,11 +38,10 @@ Clip clip(const ObjectRay& ray, const Bounds3& box) {
 template <class K>
 class Chord {
  public:
-  Chord(const Field& field, const Cell& cell, AtomList list, const ObjectRay& ray);
+  Chord(const Field& field, const Cell& cell, AtomList list, const ObjectRay& ray, Effort& effort);
 
   std::optional<double> first();
   bool crosses();
-  const Effort& effort() const { return effort_; }
 
  private:
   // An atom as the ray sees it. Fields are left uninitialised: most of the array is never touched.
@@ -79,6 +78,7 @@ class Chord {
   std::optional<double> accept(double s) const;
 
   const std::vector<Atom>& atoms_;
+  Effort& effort_;
   AtomList rest_;  // beyond those stored
   double tMin_, tMax_;
   double middle_ = 0;    // t at s = 0
@@ -90,14 +90,14 @@ class Chord {
   double error_ = 0;     // bound on the distance of o + s u from the ray's true point
   double tolerance_ = 0;
   double sumError_ = 0;  // relative error of a sum over the atoms
-  Effort effort_;
   int stored_ = 0;
   std::array<Line, kStored> lines_;
 };
 
 template <class K>
-Chord<K>::Chord(const Field& field, const Cell& cell, AtomList list, const ObjectRay& ray)
-    : atoms_(field.atoms()), tMin_(ray.tMin), tMax_(ray.tMax) {
+Chord<K>::Chord(const Field& field, const Cell& cell, AtomList list, const ObjectRay& ray,
+                Effort& effort)
+    : atoms_(field.atoms()), effort_(effort), tMin_(ray.tMin), tMax_(ray.tMax) {
   const Clip c = clip(ray, cell.box);
   speed_ = glm::length(ray.d);
   if (!(c.t0 <= c.t1) || !(speed_ > 0 && speed_ < kInfinity)) return;
@@ -215,7 +215,7 @@ bool keepsOff(const Interval& fa, const Interval& fb, const Interval& slope, dou
   const double towardsFromA = std::max(0.0, below ? slope.hi : -slope.lo);
   const double towardsFromB = std::max(0.0, below ? -slope.lo : slope.hi);
   const double off = towardsFromB * a + towardsFromA * b;
-  return off * (1 - 8 * kEpsilon) >= towardsFromA * towardsFromB * w && a > 0 && off > 0;
+  return off * (1 - 8 * kEpsilon) >= towardsFromA * towardsFromB * w && off > 0;
 }
 
 template <class K>
@@ -284,19 +284,16 @@ bool Chord<K>::crosses() {
 
 std::optional<double> firstCrossing(const Field& field, const Cell& cell, AtomList list,
                                     const ObjectRay& ray, Effort* effort) {
+  Effort own;
   return withKernel(field.kernel(), [&]<class K>(K) {
-    Chord<K> chord(field, cell, list, ray);
-    const std::optional<double> t = chord.first();
-    if (effort)
-      *effort = {effort->intervals + chord.effort().intervals,
-                 effort->points + chord.effort().points};
-    return t;
+    return Chord<K>(field, cell, list, ray, effort ? *effort : own).first();
   });
 }
 
 bool crosses(const Field& field, const Cell& cell, AtomList list, const ObjectRay& ray) {
+  Effort own;
   return withKernel(field.kernel(),
-                    [&]<class K>(K) { return Chord<K>(field, cell, list, ray).crosses(); });
+                    [&]<class K>(K) { return Chord<K>(field, cell, list, ray, own).crosses(); });
 }
 
 }  // namespace pbrt::metaballs

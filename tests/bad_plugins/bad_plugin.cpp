@@ -20,7 +20,7 @@ void* create(pbrt::Params&, const void*) {
 }
 #endif
 
-PluginInfo describe() {
+[[maybe_unused]] PluginInfo describe() {
   PluginInfo info{pbrt::kAbiVersion,
                   pbrt::compiledFingerprint(),
                   PluginKind::filter,
@@ -47,10 +47,10 @@ PBRT_PLUGIN_EXPORT const PluginInfo* other_function() {
 #else
 PBRT_PLUGIN_EXPORT const PluginInfo* pbrt_plugin() {
 #endif
-  static const PluginInfo info = describe();
 #ifdef RETURNS_NOTHING
   return nullptr;
 #else
+  static const PluginInfo info = describe();
   return &info;
 #endif
 }

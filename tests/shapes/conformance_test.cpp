@@ -181,6 +181,16 @@ TEST_P(Meshes, AreSound) {
   EXPECT_LE(against, mesh->indices.size() / 100);
 }
 
+TEST(Shapes, DescribeTheirParameters) {
+  for (const std::string& name : test::loader().available(PluginKind::shape)) {
+    std::vector<Declaration> declarations;
+    Params params = Params::describing(name, declarations);
+    EXPECT_NO_THROW(create<Shape>(test::loader().open(PluginKind::shape, name), params, {}));
+    EXPECT_FALSE(declarations.empty()) << name;
+    for (const Declaration& d : declarations) EXPECT_FALSE(d.meaning.empty()) << d.name;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Every, Traced, testing::ValuesIn(test::casesWhere([](Shape& s) {
                            return !s.triangles();
                          })),

@@ -49,7 +49,7 @@ class Emitters : public test::Shapes {
   // nearer to the integral than as many random points.
   template <class F>
   Mean integral(F f) {
-    constexpr int batches = 32, grid = 64;
+    constexpr int batches = 16, grid = 48;
     Mean mean;
     for (int k = 0; k < batches; ++k) {
       double sum = 0;

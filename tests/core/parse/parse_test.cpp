@@ -2,6 +2,8 @@
 
 #include "core/parse/parse.h"
 
+#include <fmt/format.h>
+
 #include "tests/core/parse/parsing.h"
 
 namespace pbrt {
@@ -162,7 +164,7 @@ TEST(Parameters, EveryTypesOwnNameIsRead) {
     const bool isText = type == ParamType::string || type == ParamType::texture;
     const std::string value =
         isText ? "\"v\"" : (type == ParamType::boolean ? "true" : "[1 2 3 4 5 6]");
-    EXPECT_EQ(paramOf("\"" + std::string(typeName(type)) + " x\" " + value).type, type);
+    EXPECT_EQ(paramOf(fmt::format("\"{} x\" {}", typeName(type), value)).type, type);
   }
 }
 

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Sorts, BadPlugin,
                                          Refusal{"returns_nothing", "returns nothing"},
                                          Refusal{"missing_symbol", "nowhereDefined"},
                                          Refusal{"not_an_object", "cannot be opened"}),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& test) { return test.param.name; });
 
 TEST(PluginLoader, OpensAtFirstMentionAndOnce) {
   PluginLoader loader({PBRT_BUILD_DIR "/lib/pbrt"});

@@ -125,7 +125,7 @@ TEST(Film, BrightSamplesAreDarkenedBeforeScaling) {
 
 TEST(Film, TooLargeAFilmIsAClearError) {
   const auto box = test::make<Filter>("box");
-  EXPECT_THROW(Film({1 << 30, 1 << 20}, {{0, 0}, {1 << 30, 1 << 20}}, *box), Error);
+  EXPECT_THROW(Film({1 << 16, 1 << 16}, {{0, 0}, {1 << 16, 1 << 16}}, *box), Error);
 }
 
 }  // namespace

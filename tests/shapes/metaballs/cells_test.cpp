@@ -52,7 +52,6 @@ TEST(MetaballCells, MissNothingThatOneBigCellSees) {
           const DVec3 d = random.direction();
           const ObjectRay ray{target - 3.0 * extent * d, d};
           const auto one = firstCrossing(field, whole, all, ray);
-          Bounds3 box;
           const auto many =
               nearest(cells, ray, [&](const Cell& c, AtomList list, const ObjectRay& r) {
                 const auto t = firstCrossing(field, c, list, r);
@@ -82,18 +81,21 @@ TEST(MetaballCells, AreNoneWhereThereIsNoSurface) {
       Cells(Field(Kernel::blob, {{{0, 0, 0}, 1, 1, 0.9}, {{5, 0, 0}, 1, 1, 0.9}})).cells().empty());
 }
 
-// Cells do not fill the inside: their number grows with the surface.
+// Cells do not fill the inside of a dense set.
 TEST(MetaballCells, FormAShell) {
-  const auto lattice = [](int n) {
-    std::vector<Atom> atoms;
-    for (int x = 0; x < n; ++x)
-      for (int y = 0; y < n; ++y)
-        for (int z = 0; z < n; ++z) atoms.push_back({{0.5F * x, 0.5F * y, 0.5F * z}, 1, 1, 0.35});
-    return Cells(Field(Kernel::poly6, atoms)).cells().size();
-  };
-  const auto small = static_cast<double>(lattice(6)), large = static_cast<double>(lattice(12));
-  std::printf("cells: %g for 216 atoms, %g for 1728\n", small, large);
-  EXPECT_LT(large, 5 * small);
+  std::vector<Atom> atoms;
+  for (int x = 0; x < 12; ++x)
+    for (int y = 0; y < 12; ++y)
+      for (int z = 0; z < 12; ++z)
+        atoms.push_back(atom(Kernel::poly6, {0.5F * x, 0.5F * y, 0.5F * z}, 1, 0.39));
+  const Cells cells(Field(Kernel::poly6, atoms));
+  std::size_t deep = 0;
+  for (const Cell& cell : cells.cells()) {
+    const Point3 p = cell.box.centre();
+    deep += std::min({p.x, p.y, p.z}) > 1 && std::max({p.x, p.y, p.z}) < 4.5F;
+  }
+  std::printf("%zu cells, %zu deep inside\n", cells.cells().size(), deep);
+  EXPECT_EQ(deep, 0U);
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ TEST_P(Crossing, IsTheFirst) {
         const Cells cells(field);
         Random random(count + 17);
         Tally tally;
-        const int rays = unit == 1 && count < 300 ? 250 : 50;
+        const int rays = unit == 1 && count < 300 ? 150 : 30;
         for (int i = 0; i < rays; ++i)
           judge(field, cells, rayOf(static_cast<RayKind>(i % kRayKinds), field, unit, random), unit,
                 tally);
@@ -239,6 +239,30 @@ TEST_P(Crossing, KeepsToTheRaysPart) {
     }
   }
   EXPECT_GT(parts, 100);
+}
+
+// From a point that is on the surface but for the rounding of its coordinates.
+TEST_P(Crossing, IsNotWhereTheRayStarts) {
+  const Field field = cloud(12, GetParam(), 0.3, 1, 12);
+  const Cells cells(field);
+  Random random(34);
+  const auto first = [&](const Cell& c, AtomList list, const ObjectRay& r) {
+    return firstCrossing(field, c, list, r);
+  };
+  int starts = 0;
+  for (int i = 0; i < 300; ++i) {
+    const ObjectRay ray = rayOf(outside, field, 1, random);
+    const auto t = nearest(cells, ray, first);
+    if (!t) continue;
+    const Oracle oracle(field, ray);
+    if (std::abs(static_cast<double>(oracle.slope(*t))) < 0.1) continue;
+    for (const double sign : {1.0, -1.0}) {
+      const auto next = nearest(cells, {ray.at(*t), sign * ray.d}, first);
+      EXPECT_TRUE(!next || *next > 1e-3);
+    }
+    ++starts;
+  }
+  EXPECT_GT(starts, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Kernels, Crossing,
