@@ -9,7 +9,7 @@ class OrthographicCamera final : public ProjectiveCamera {
  public:
   OrthographicCamera(Params& p, const Setup& setup)
       : ProjectiveCamera(p, setup),
-        corner_(origin() + window().upperLeft().x * x() + window().upperLeft().y * y()),
+        centre_(origin() + window().centre().x * x() + window().centre().y * y()),
         right_(window().pixel().x * x()),
         down_(window().pixel().y * y()),
         forward_(z()) {}
@@ -17,7 +17,8 @@ class OrthographicCamera final : public ProjectiveCamera {
   CameraRay generate(const CameraSample& sample, bool differentials) const override {
     CameraRay result;
     RayDifferential& ray = result.ray;
-    ray.o = corner_ + sample.film.x * right_ + sample.film.y * down_;
+    const Point2 film = fromMiddle(sample.film);
+    ray.o = centre_ + film.x * right_ + film.y * down_;
     Vec3 d = forward_;
     if (!pinhole()) {
       const Vec3 offset = lens(sample.lens);
@@ -37,7 +38,7 @@ class OrthographicCamera final : public ProjectiveCamera {
   std::optional<glm::dmat4> screenFromCamera() const override { return window().toNdc(); }
 
  private:
-  Point3 corner_;  // of the screen, in render space
+  Point3 centre_;  // of the screen, in render space
   Vec3 right_, down_, forward_;
 };
 

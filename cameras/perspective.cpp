@@ -8,20 +8,21 @@ namespace pbrt {
 class PerspectiveCamera final : public ProjectiveCamera {
  public:
   PerspectiveCamera(Params& p, const Setup& setup)
-      : ProjectiveCamera(p, setup), tangent_(tangent(p)), centre_(origin()) {
-    const glm::dvec2 corner = tangent_ * window().upperLeft();
+      : ProjectiveCamera(p, setup), tangent_(tangent(p)), eye_(origin()) {
+    const glm::dvec2 centre = tangent_ * window().centre();
     const glm::dvec2 pixel = tangent_ * window().pixel();
-    corner_ = corner.x * x() + corner.y * y() + z();
+    forward_ = centre.x * x() + centre.y * y() + z();
     right_ = pixel.x * x();
     down_ = pixel.y * y();
   }
 
   CameraRay generate(const CameraSample& sample, bool differentials) const override {
     // Through the film's place on the plane z = 1.
-    Vec3 d = corner_ + sample.film.x * right_ + sample.film.y * down_;
+    const Point2 film = fromMiddle(sample.film);
+    Vec3 d = forward_ + film.x * right_ + film.y * down_;
     CameraRay result;
     RayDifferential& ray = result.ray;
-    ray.o = centre_;
+    ray.o = eye_;
     if (!pinhole()) {
       const Vec3 offset = lens(sample.lens);
       ray.o += offset;
@@ -44,7 +45,7 @@ class PerspectiveCamera final : public ProjectiveCamera {
   }
 
  private:
-  // The half height of the screen's unit square, seen at z = 1.
+  // The length of the screen's unit at z = 1.
   static double tangent(Params& p) {
     const float fov = p.number("fov", 90, "angle of view over the shorter side", "degrees");
     const auto half =
@@ -55,8 +56,8 @@ class PerspectiveCamera final : public ProjectiveCamera {
   }
 
   double tangent_;
-  Point3 centre_;
-  Vec3 corner_, right_, down_;  // render space, at camera-space z = 1
+  Point3 eye_;
+  Vec3 forward_, right_, down_;  // to the screen's centre at camera-space z = 1; one pixel on it
 };
 
 }  // namespace pbrt

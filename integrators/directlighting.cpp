@@ -8,10 +8,10 @@
 namespace pbrt {
 namespace {
 
-// The weight of a sample with density a of a strategy, where the other one has density b
-// (Veach 1997, power heuristic with exponent 2).
-float powerHeuristic(float a, float b) {
-  const float r = b / a;
+// The weight of a sample of a strategy that has n samples of density a, where the other one has m
+// of density b (Veach 1997, power heuristic with exponent 2).
+float powerHeuristic(std::size_t n, float a, std::size_t m, float b) {
+  const float r = static_cast<float>(m) * b / (static_cast<float>(n) * a);
   return 1 / (1 + r * r);
 }
 
@@ -57,39 +57,44 @@ class DirectLighting final : public SamplingIntegrator {
     return L;
   }
 
-  // The mean of n samples of one light, each strategy having n.
+  // n samples of one light by its own strategy. Those by the BSDF's find the highlights of glossy
+  // surfaces, and are as many there; a diffuse surface has no highlights, and only near a large
+  // light is its strategy the better one: a quarter is enough.
   static Spectrum fromLight(const World& world, const Light& light, int n,
                             const SurfaceInteraction& at, const Bsdf& bsdf, Sampler& sampler) {
     std::array<Point2, kMostSamples> points;
     Spectrum sum(0);
     for (int done = 0; done < n; done += kMostSamples) {
-      const std::span<Point2> u(points.data(),
-                                static_cast<std::size_t>(std::min(n - done, kMostSamples)));
+      const auto now = static_cast<std::size_t>(std::min(n - done, kMostSamples));
+      const std::size_t byBsdfNow = light.isDelta() ? 0 : (bsdf.has(kGlossy) ? now : (now + 3) / 4);
+      const std::span<Point2> u(points.data(), now);
       sampler.get2D(u);
-      sum += byLight(world, light, at, bsdf, u);
-      if (light.isDelta()) continue;
-      sampler.get2D(u);
-      sum += byBsdf(world, light, at, bsdf, u);
+      sum += static_cast<float>(now) * byLight(world, light, at, bsdf, u, byBsdfNow);
+      if (byBsdfNow == 0) continue;
+      sampler.get2D(u.first(byBsdfNow));
+      sum += static_cast<float>(now) * byBsdf(world, light, at, bsdf, u.first(byBsdfNow), now);
     }
     return sum / static_cast<float>(n);
   }
 
+  // The mean over the points, each weighted against `others` samples of the other strategy.
   static Spectrum byLight(const World& world, const Light& light, const SurfaceInteraction& at,
-                          const Bsdf& bsdf, std::span<const Point2> points) {
+                          const Bsdf& bsdf, std::span<const Point2> points, std::size_t others) {
     ShadowedSum direct(world);
     for (const Point2& u : points) {
       const LightSample s = light.sample(at.p, u);
       if (s.pdf == 0 || isBlack(s.L)) continue;
       const Spectrum f = bsdf.f(at.wo, s.wi);
       if (isBlack(f)) continue;
-      const float weight = light.isDelta() ? 1 : powerHeuristic(s.pdf, bsdf.pdf(at.wo, s.wi));
+      const float weight =
+          others == 0 ? 1 : powerHeuristic(points.size(), s.pdf, others, bsdf.pdf(at.wo, s.wi));
       direct.add(shadowRay(at, s), f * s.L * (std::abs(glm::dot(s.wi, at.ns)) * weight / s.pdf));
     }
-    return direct.sum();
+    return direct.sum() / static_cast<float>(points.size());
   }
 
   static Spectrum byBsdf(const World& world, const Light& light, const SurfaceInteraction& at,
-                         const Bsdf& bsdf, std::span<const Point2> points) {
+                         const Bsdf& bsdf, std::span<const Point2> points, std::size_t others) {
     Spectrum sum(0);
     for (const Point2& u : points) {
       const auto s = bsdf.sample(at.wo, u, kAllLobes & ~kSpecular);
@@ -110,9 +115,10 @@ class DirectLighting final : public SamplingIntegrator {
       }
       if (!isBlack(L))
         sum += s->f * L *
-               (std::abs(glm::dot(s->wi, at.ns)) * powerHeuristic(s->pdf, lightPdf) / s->pdf);
+               (std::abs(glm::dot(s->wi, at.ns)) *
+                powerHeuristic(points.size(), s->pdf, others, lightPdf) / s->pdf);
     }
-    return sum;
+    return sum / static_cast<float>(points.size());
   }
 
   int maxDepth_;

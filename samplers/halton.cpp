@@ -86,7 +86,7 @@ class HaltonSampler final : public Sampler {
     const std::size_t d = dimension_;
     dimension_ += 2;
     const auto n = static_cast<std::uint32_t>(points.size());
-    const std::int64_t count = std::int64_t{samplesPerPixel()} * n;
+    const std::int64_t count = std::min(std::int64_t{samplesPerPixel()} * n, std::int64_t{1} << 31);
     const int digitsX = digits(kBase[d], count), digitsY = digits(kBase[d + 1], count);
     keys_.nextDimension();
     const std::uint64_t keyX = keys_.pixel();

@@ -240,8 +240,8 @@ class LoopSubdiv final : public MeshShape {
     for (std::uint32_t v = 0; v < points.size(); ++v) {
       if (mesh.out[v] == kNone) continue;
       ring.gather(mesh, points, v);
-      mesh_.positions[v] =
-          ring.smooth(1.F / 5, limitWeight);  // on boundaries pbrt's weight; exact: 1/6
+      // On boundaries pbrt's weight; that of the very limit is 1/6.
+      mesh_.positions[v] = ring.smooth(1.F / 5, limitWeight);
       mesh_.normals[v] = ring.limitNormal();
     }
     mesh_.indices = std::move(mesh.vertex);

@@ -55,9 +55,11 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("--cropwindow", o.cropWindow,
                  "The part to render: x0 x1 y0 y1 or x0,x1,y0,y1, "
                  "each from 0 to 1")
-      ->expected(4);
+      ->expected(4)
+      ->allow_extra_args(false);
   app.add_option("--pixelbounds", o.pixelBounds, "The part to render in pixels: x0,x1,y0,y1")
-      ->expected(4);
+      ->expected(4)
+      ->allow_extra_args(false);
   app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
   app.add_flag("--quiet", o.quiet, "Say nothing but errors");
   app.add_flag("--stats", o.stats, "Tell times, rays, memory and the plug-ins that were opened");

@@ -16,7 +16,7 @@ inline Ray shadowRay(const SurfaceInteraction& at, const LightSample& light) {
 // one point to one light are alike, which is what packets need.
 class ShadowedSum {
  public:
-  explicit ShadowedSum(const World& world) : world_(world) {}
+  explicit ShadowedSum(const World& world) : world_(world) {}  // NOLINT: see rays_
 
   void add(const Ray& ray, const Spectrum& contribution) {
     if (count_ == World::kBatch) trace();
@@ -43,7 +43,10 @@ class ShadowedSum {
   const World& world_;
   int count_ = 0;
   Spectrum sum_{0};
-  std::array<Ray, World::kBatch> rays_;
+  // Deliberately without initial values: most points use few of them.
+  union {
+    std::array<Ray, World::kBatch> rays_;
+  };
   std::array<Spectrum, World::kBatch> contributions_;
 };
 

@@ -25,7 +25,7 @@ class ScreenWindow {
       p.fail("screenwindow", "is empty: x0 must be below x1, and y0 below y1");
   }
 
-  glm::dvec2 upperLeft() const { return {lo_.x, hi_.y}; }
+  glm::dvec2 centre() const { return 0.5 * (lo_ + hi_); }
   // One pixel to the right and down.
   glm::dvec2 pixel() const {
     return {(hi_.x - lo_.x) / resolution_.x, (lo_.y - hi_.y) / resolution_.y};
@@ -33,7 +33,7 @@ class ScreenWindow {
   // Screen to normalised device coordinates; z is kept.
   glm::dmat4 toNdc() const {
     const glm::dvec2 scale = 1.0 / glm::dvec2(hi_.x - lo_.x, lo_.y - hi_.y);
-    const glm::dvec2 offset = -upperLeft() * scale;
+    const glm::dvec2 offset = -glm::dvec2(lo_.x, hi_.y) * scale;
     return {{scale.x, 0, 0, 0}, {0, scale.y, 0, 0}, {0, 0, 1, 0}, {offset.x, offset.y, 0, 1}};
   }
 
@@ -48,6 +48,7 @@ class ProjectiveCamera : public Camera {
  protected:
   ProjectiveCamera(Params& p, const Setup& setup)
       : window_(p, setup.resolution),
+        middle_(0.5F * Point2(setup.resolution)),
         origin_(setup.toRender.point(DPoint3(0))),
         x_(setup.toRender.vector({1, 0, 0})),
         y_(setup.toRender.vector({0, 1, 0})),
@@ -64,6 +65,8 @@ class ProjectiveCamera : public Camera {
   }
 
   const ScreenWindow& window() const { return window_; }
+  // Pixels from the film's middle: small numbers where the eye is sharpest, with nothing rounded.
+  Point2 fromMiddle(Point2 film) const { return film - middle_; }
   // The camera's origin and axes in render space.
   DPoint3 origin() const { return origin_; }
   const DVec3& x() const { return x_; }
@@ -90,6 +93,7 @@ class ProjectiveCamera : public Camera {
 
  private:
   ScreenWindow window_;
+  Point2 middle_;
   DPoint3 origin_;
   DVec3 x_, y_, z_;
   float open_, close_;

@@ -11,6 +11,17 @@ double stretch(const Transform& t) {
                    lengthSquared(DVec3(m[2])));
 }
 
+// Whether the linear part only turns, mirrors and scales alike in all directions: then its columns
+// are as long as each other and at right angles.
+bool isSimilar(const Transform& t) {
+  const glm::dmat3 m(t.matrix());
+  const double l2 = lengthSquared(m[0]), tolerance = 1e-12 * l2;
+  return std::abs(lengthSquared(m[1]) - l2) < tolerance &&
+         std::abs(lengthSquared(m[2]) - l2) < tolerance &&
+         std::abs(glm::dot(m[0], m[1])) < tolerance && std::abs(glm::dot(m[0], m[2])) < tolerance &&
+         std::abs(glm::dot(m[1], m[2])) < tolerance;
+}
+
 float largest(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
@@ -30,6 +41,7 @@ class PlacedSampler final : public AreaSampler {
         toObject_(toRender.inverse()),
         determinant_(std::abs(glm::determinant(glm::dmat3(toRender.matrix())))),
         stretch_(stretch(toRender)),
+        similar_(isSimilar(toRender)),
         reverse_(reverse) {}
 
   // Exact for similar maps; otherwise as if the map stretched alike in all directions.
@@ -62,6 +74,7 @@ class PlacedSampler final : public AreaSampler {
 
  private:
   float densityFactor(const DVec3& w) const {
+    if (similar_) return 1;
     const double l = std::sqrt(lengthSquared(toRender_.vector(w)) / lengthSquared(w));
     return static_cast<float>(l * l * l / determinant_);
   }
@@ -70,6 +83,7 @@ class PlacedSampler final : public AreaSampler {
   Transform toRender_, toObject_;
   double determinant_;
   double stretch_;
+  bool similar_;
   bool reverse_;
 };
 
