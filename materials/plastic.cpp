@@ -22,14 +22,15 @@ class Plastic final : public Material {
     const Spectrum kd = glm::max(kd_(at), 0.F), ks = glm::max(ks_(at), 0.F);
     if (!isBlack(kd)) bsdf.add(place<Lambertian>(scratch, kd));
     if (isBlack(ks)) return;
-    // pbrt-v1 to v3 take the denser medium for the incident side, so that the facets reflect
-    // totally beyond the critical angle; pictures of plastic agree with theirs only so.
-    constexpr DielectricFresnel fresnel{1 / 1.5F};
     const float roughness = roughness_(at);
     if (blinn_) {
+      // pbrt-v1 and v2 take the denser medium for the incident side, so that the facets reflect
+      // totally beyond the critical angle; pictures of plastic agree with theirs only so.
+      constexpr DielectricFresnel fresnel{1 / 1.5F};
       using Lobe = MicrofacetReflection<Blinn, DielectricFresnel>;
       bsdf.add(place<Lobe>(scratch, ks, Blinn(roughness), fresnel));
     } else {
+      constexpr DielectricFresnel fresnel{1.5F};
       using Lobe = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
       const float alpha = remap_ ? TrowbridgeReitz::alpha(roughness) : roughness;
       bsdf.add(place<Lobe>(scratch, ks, TrowbridgeReitz(alpha, alpha), fresnel));

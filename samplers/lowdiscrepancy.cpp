@@ -78,9 +78,10 @@ class LowDiscrepancySampler final : public Sampler {
     return static_cast<std::uint32_t>(std::uint64_t{v} << (32 - bits));
   }
 
-  // The reversed index of the sample in another order of the pixel's samples. It is random, not
-  // nested: if pairs of samples stayed pairs, then wherever one dimension is in its other half all
-  // would be, and products of dimensions were known worse by a quarter.
+  // The reversed index of the sample in another order of the pixel's samples. The order is random
+  // through and through: if it kept pairs of samples together, as an order for which every
+  // beginning is spread well must, the two would differ by one half in every dimension at once, and
+  // estimates of products of dimensions would have a quarter more variance.
   std::uint32_t shuffled(std::uint64_t key) const {
     const auto count = static_cast<std::uint32_t>(samplesPerPixel());
     return leading(permute(index_, count, key), resolution_) | round_;

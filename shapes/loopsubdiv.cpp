@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <tuple>
 
 #include "core/plugin/plugin.h"
@@ -224,10 +223,11 @@ void subdivide(HalfEdges& mesh, std::vector<Point3>& points, OneRing& ring) {
 class LoopSubdiv final : public MeshShape {
  public:
   explicit LoopSubdiv(Params& p) {
-    constexpr std::array<std::string_view, 1> schemes{"loop"};
     const int nlevels = p.integer("nlevels", 3, 0, kMaxLevels, "steps of subdivision");
     const int levels = p.integer("levels", nlevels, 0, kMaxLevels, "another name for nlevels");
-    p.choice("scheme", schemes, "loop", "rule of subdivision");
+    // Real scenes name other schemes, and no pbrt ever had one.
+    const std::string scheme = p.text("scheme", "loop", "rule of subdivision; only loop is known");
+    if (scheme != "loop") p.warn("scheme", fmt::format("is \"{}\"; Loop's rule is used", scheme));
     std::vector<Point3> points = p.points("P", "vertices of the coarse mesh");
     p.require("P");
     HalfEdges mesh = connect(p, readIndices(p, points.size(), levels), points.size());

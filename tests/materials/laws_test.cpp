@@ -1,6 +1,8 @@
 // Laws of scattering, for every material that can be found, with every set of parameters below
 // whose names the material knows.
 
+#include <fmt/format.h>
+
 #include "tests/chi_square.h"
 #include "tests/materials/scattering.h"
 
@@ -46,9 +48,9 @@ void forEveryMaterial(Check check) {
       bool known = true;
       std::string label = name;
       for (const Param& p : set) {
-        label += " " + p.name;
+        label += fmt::format(" {}", p.name);
         if (p.type == ParamType::number)
-          label += "=" + std::to_string(std::get<std::vector<float>>(p.values)[0]);
+          label += fmt::format("={}", std::get<std::vector<float>>(p.values)[0]);
         known &= std::any_of(declared.begin(), declared.end(),
                              [&](const Declaration& d) { return d.name == p.name; });
       }

@@ -152,6 +152,18 @@ TEST(LoopSubdiv, VerticesInNoTriangleAreHarmless) {
     EXPECT_EQ(a.positions[a.indices[i]], b.positions[b.indices[i]]);
 }
 
+TEST(LoopSubdiv, WarnsOfSchemesThatThereAreNot) {
+  const ParamList list{test::points("P", kOctahedron.points),
+                       test::integers("indices", kOctahedron.indices),
+                       test::text("scheme", "catmull-clark")};
+  std::vector<std::string> warnings;
+  Params params("shapes/loopsubdiv", {}, {&list}, nullptr,
+                [&](const Diagnostic& d) { warnings.push_back(d.message); });
+  EXPECT_TRUE(create<Shape>(test::loader().open(PluginKind::shape, "loopsubdiv"), params, {}));
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_NE(warnings[0].find("catmull-clark"), std::string::npos);
+}
+
 TEST(LoopSubdiv, SaysWhatIsWrong) {
   const std::vector<float> points{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1};
   const auto complaint = [&](const std::vector<int>& indices, int levels = 1) -> std::string {
