@@ -20,7 +20,7 @@ class Diffuse final : public Light {
     LightSample s;
     const AreaSample on = surface_->sample(DPoint3(p), u);
     if (!(on.pdf > 0)) return s;
-    s.wi = glm::normalize(on.p - DPoint3(p));
+    s.wi = glm::normalize(Vec3(on.p - DPoint3(p)));
     s.L = emitted(on.p, on.n, -s.wi);
     if (isBlack(s.L)) return s;
     s.p = on.p;

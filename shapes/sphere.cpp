@@ -49,9 +49,12 @@ class Sphere final : public Shape, public AreaSampler {
   const AreaSampler* areaSampler() const override { return this; }
   double area() const override { return phiMax_ * r_ * (z1_ - z0_); }
   AreaSample sample(const DPoint3& from, Point2 u) const override {
-    const DVec3 n = seenInCone(from) ? uniformSphereCone(u, from, r_)
-                                     : uniformZone(u, z0_ / r_, z1_ / r_, phiMax_);
-    return {r_ * n, 1e-15 * r_, n, pdf(from, r_ * n, n)};
+    if (seenInCone(from)) {
+      const auto [n, density] = uniformSphereCone(u, from, r_);
+      return {r_ * DVec3(n), 1e-6 * r_, n, density};
+    }
+    const DVec3 n = uniformZone(u, z0_ / r_, z1_ / r_, phiMax_);
+    return {r_ * n, 1e-15 * r_, n, uniformAreaPdf(from, r_ * n, n, area())};
   }
   float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
     if (!seenInCone(from)) return uniformAreaPdf(from, p, n, area());

@@ -84,7 +84,7 @@ class Bsdf {
   Frame frame_;
   Normal3 n_;
   int count_ = 0;
-  std::array<const Bxdf*, kMaxLobes> lobes_{};
+  std::array<const Bxdf*, kMaxLobes> lobes_;  // the first count_
 };
 
 }  // namespace pbrt

@@ -33,6 +33,8 @@ class Camera {
 
   // The neighbours of the ray are filled in only on demand; they are one pixel away.
   virtual CameraRay generate(const CameraSample& sample, bool differentials) const = 0;
+  // Whether a ray depends on where it goes through the lens; if not, CameraSample::lens is not set.
+  virtual bool usesLens() const { return true; }
   // Camera space to normalised device coordinates ([0, 1]^2 over the picture), where a matrix can
   // say it; written into the picture's metadata.
   virtual std::optional<glm::dmat4> screenFromCamera() const { return {}; }

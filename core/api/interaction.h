@@ -47,10 +47,9 @@ struct SurfaceInteraction {
 inline Point3 offsetOrigin(const Point3& p, float error, const Normal3& n, const Vec3& w) {
   const Vec3 offset = (glm::dot(w, n) < 0 ? -error : error) * n;
   Point3 o = p + offset;
-  for (int i = 0; i < 3; ++i) {
-    if (offset[i] > 0) o[i] = std::nextafter(o[i], kInfinity);
-    if (offset[i] < 0) o[i] = std::nextafter(o[i], -kInfinity);
-  }
+  // |o| epsilon is one to two units in the last place.
+  for (int i = 0; i < 3; ++i)
+    o[i] += std::copysign(std::abs(o[i]) * std::numeric_limits<float>::epsilon(), offset[i]);
   return o;
 }
 

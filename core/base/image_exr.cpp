@@ -99,6 +99,7 @@ void encodeExr(std::FILE* to, const Image& image) {
   const Imath::Box2i window = boxOf(image.window);
   Imf::Header header(boxOf({Point2i(0), image.resolution}), window);
   header.compression() = Imf::ZIP_COMPRESSION;
+  header.zipCompressionLevel() = 1;  // three times as fast, a few per cent larger
   for (const auto& [name, value] : image.attributes)
     std::visit(InsertAttribute{header, name}, value);
 

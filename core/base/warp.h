@@ -56,16 +56,27 @@ inline float sphereConeHeight(const DPoint3& from, double r) {
   const double sin2 = r * r / lengthSquared(from);
   return static_cast<float>(sin2 / (1 + std::sqrt(1 - sin2)));
 }
-// The unit normal where the sphere is first met from there, in a direction uniform in that cone.
-inline DVec3 uniformSphereCone(Point2 u, const DPoint3& from, double r) {
+// The normal (unit but for rounding) where the sphere is first met from there, in a direction
+// uniform in that cone, and the density per solid angle.
+struct ConeSample {
+  Normal3 n{};
+  float pdf = 0;
+};
+inline ConeSample uniformSphereCone(Point2 u, const DPoint3& from, double r) {
   // The direction is at theta from the axis, the normal at alpha. By the law of sines
   // sin(alpha + theta) = sin(theta) / sin(thetaMax); what is used is sin(alpha) / sin(theta).
-  const Vec3 w = uniformCone(u, sphereConeHeight(from, r));
-  const auto sinMax = static_cast<float>(r / glm::length(from));
-  const float sin2 = w.x * w.x + w.y * w.y;
-  const float cosSum = safeSqrt(1 - sin2 / sqr(sinMax)), s = w.z / sinMax - cosSum;
-  const Frame frame = Frame::fromZ(glm::normalize(from));
-  return glm::normalize(DVec3(frame.fromLocal({s * w.x, s * w.y, cosSum * w.z + sin2 / sinMax})));
+  // Only what would cancel near the sphere is worked out in double.
+  const double distance2 = lengthSquared(from), inverse = 1 / std::sqrt(distance2);
+  const auto sinMax = static_cast<float>(r * inverse);
+  const auto cos2Max = static_cast<float>((distance2 - r * r) * inverse * inverse);
+  const float height = sqr(sinMax) / (1 + std::sqrt(cos2Max));
+  const Vec3 w = uniformCone(u, height);
+  const float inverseSinMax = 1 / sinMax, sin2 = w.x * w.x + w.y * w.y;
+  const float cosSum = safeSqrt(1 - sin2 * sqr(inverseSinMax));
+  const float s = w.z * inverseSinMax - cosSum;
+  const Frame frame = Frame::fromZ(from * inverse);
+  return {frame.fromLocal({s * w.x, s * w.y, cosSum * w.z + sin2 * inverseSinMax}),
+          uniformConePdf(height)};
 }
 
 // Barycentric coordinates of a uniform point of a triangle (Turk 1990); the third is the rest.

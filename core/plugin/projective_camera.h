@@ -45,6 +45,9 @@ class ScreenWindow {
 // A camera whose rays all reach a common plane: ray (film, lens) starts on the lens, which lies
 // about the camera's origin, and goes through the place of the focal plane that `film` shows.
 class ProjectiveCamera : public Camera {
+ public:
+  bool usesLens() const final { return !pinhole(); }
+
  protected:
   ProjectiveCamera(Params& p, const Setup& setup)
       : window_(p, setup.resolution),

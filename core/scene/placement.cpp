@@ -42,6 +42,8 @@ class PlacedSampler final : public AreaSampler {
         determinant_(std::abs(glm::determinant(glm::dmat3(toRender.matrix())))),
         stretch_(stretch(toRender)),
         similar_(isSimilar(toRender)),
+        normalMatrix_(glm::transpose(glm::dmat3(toRender.inverseMatrix())) *
+                      ((reverse ? -1 : 1) * std::cbrt(determinant_))),
         reverse_(reverse) {}
 
   // Exact for similar maps; otherwise as if the map stretched alike in all directions.
@@ -56,7 +58,8 @@ class PlacedSampler final : public AreaSampler {
     if (s.pdf == 0) return s;
     s.pdf *= densityFactor(s.p - origin);
     s.p = toRender_.point(s.p);
-    s.n = unitNormal(toRender_, s.n) * (reverse_ ? -1.F : 1.F);
+    s.n = normalMatrix_ * s.n;  // of unit length if the map is similar
+    if (!similar_) s.n = glm::normalize(s.n);
     s.error *= stretch_;
     return s;
   }
@@ -84,6 +87,7 @@ class PlacedSampler final : public AreaSampler {
   double determinant_;
   double stretch_;
   bool similar_;
+  glm::mat3 normalMatrix_;
   bool reverse_;
 };
 

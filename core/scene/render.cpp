@@ -52,6 +52,7 @@ struct TileJob {
   }
 
   void renderGroup(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
+    const bool lens = world.camera().usesLens();
     int n = 0;
     for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
       for (int x = pixels.lo.x; x < pixels.hi.x; ++x, ++n) {
@@ -59,8 +60,7 @@ struct TileJob {
         sampler.start({x, y}, index);
         CameraSample& sample = worker.samples[n];
         sample.film = Point2(x, y) + sampler.pixel2D();
-        sample.lens = sampler.get2D();
-        sample.time = sampler.get1D();
+        if (lens) sample.lens = sampler.get2D();  // nothing moves yet: no time is drawn
         worker.cameraRays[n] = world.camera().generate(sample, world.filters());
         if (world.filters()) worker.cameraRays[n].ray.scaleDifferentials(differentialScale);
         worker.rays[n] = &worker.cameraRays[n].ray;
