@@ -17,6 +17,7 @@ float powerHeuristic(std::size_t n, float a, std::size_t m, float b) {
 
 class DirectLighting final : public SamplingIntegrator {
  public:
+  static constexpr std::uint8_t kSampledLobes = kAllLobes & ~kSpecular;
   static constexpr int kMostSamples = 64;  // of one light at one point, at a time
   static constexpr std::string_view kStrategies[] = {"all", "one"};
 
@@ -86,8 +87,9 @@ class DirectLighting final : public SamplingIntegrator {
       if (s.pdf == 0 || isBlack(s.L)) continue;
       const Spectrum f = bsdf.f(at.wo, s.wi);
       if (isBlack(f)) continue;
-      const float weight =
-          others == 0 ? 1 : powerHeuristic(points.size(), s.pdf, others, bsdf.pdf(at.wo, s.wi));
+      const float weight = others == 0 ? 1
+                                       : powerHeuristic(points.size(), s.pdf, others,
+                                                        bsdf.pdf(at.wo, s.wi, kSampledLobes));
       direct.add(shadowRay(at, s), f * s.L * (std::abs(glm::dot(s.wi, at.ns)) * weight / s.pdf));
     }
     return direct.sum() / static_cast<float>(points.size());
@@ -97,7 +99,7 @@ class DirectLighting final : public SamplingIntegrator {
                          const Bsdf& bsdf, std::span<const Point2> points, std::size_t others) {
     Spectrum sum(0);
     for (const Point2& u : points) {
-      const auto s = bsdf.sample(at.wo, u, kAllLobes & ~kSpecular);
+      const auto s = bsdf.sample(at.wo, u, kSampledLobes);
       if (!s || isBlack(s->f)) continue;
       if (!light.isInfinite() && !light.mayHit(at.p, s->wi)) continue;
       const RayDifferential ray(spawnRay(at, s->wi));

@@ -14,8 +14,7 @@ class Sphere final : public Shape, public AreaSampler {
     z0_ = std::max(std::min(a, b), -r_), z1_ = std::min(std::max(a, b), r_);
     if (!(z0_ < z1_)) p.fail("zmax", "leaves nothing of the sphere above zmin");
     theta0_ = std::acos(z0_ / r_), theta1_ = std::acos(z1_ / r_);  // v runs from 0 to 1 there
-    phiMax_ = glm::radians(double{phiMax});
-    whole_ = z0_ == -r_ && z1_ == r_ && phiMax == 360;
+    phiMax_ = glm::radians(double{phiMax}), whole_ = z0_ == -r_ && z1_ == r_ && phiMax == 360;
   }
 
   Bounds3 bounds(std::uint32_t) const override {
@@ -23,9 +22,8 @@ class Sphere final : public Shape, public AreaSampler {
   }
 
   std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t) const override {
-    // |o + t d|^2 = r^2. The discriminant comes from the point of the line nearest to the centre:
-    // b^2 - a c cancels from afar (Haines et al. 2019, "Precision Improvements for Ray/Sphere
-    // Intersection"). The root of smaller magnitude comes from the product of the two, c / a.
+    // |o + t d|^2 = r^2 by the line's point nearest to the centre, as b^2 - a c cancels from afar
+    // (Haines et al. 2019, "Precision Improvements for Ray/Sphere Intersection"); t0 t1 = c / a.
     const double a = lengthSquared(ray.d), b = glm::dot(ray.o, ray.d);
     const double discriminant = a * (r_ * r_ - lengthSquared(ray.o - b / a * ray.d));
     if (!(discriminant >= 0)) return {};

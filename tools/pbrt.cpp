@@ -76,13 +76,19 @@ void defineOptions(CLI::App& app, Options& o) {
 }
 
 // The words of the command line, the last first as CLI11 wants them. pbrt-v4 writes a window as
-// x0,x1,y0,y1; it becomes the four words that pbrt-v3 has.
+// x0,x1,y0,y1, perhaps after an equals sign; it becomes the four words that pbrt-v3 has.
 std::vector<std::string> words(int argc, char** argv) {
   std::vector<std::string> result;
   for (int i = 1; i < argc; ++i) {
-    const bool window = i > 1 && (argv[i - 1] == std::string_view("--cropwindow") ||
-                                  argv[i - 1] == std::string_view("--pixelbounds"));
     std::string_view word = argv[i];
+    bool window = i > 1 && (argv[i - 1] == std::string_view("--cropwindow") ||
+                            argv[i - 1] == std::string_view("--pixelbounds"));
+    if (word.starts_with("--cropwindow=") || word.starts_with("--pixelbounds=")) {
+      const std::size_t equals = word.find('=');
+      result.emplace_back(word.substr(0, equals));
+      word.remove_prefix(equals + 1);
+      window = true;
+    }
     for (std::size_t comma; window && (comma = word.find(',')) != word.npos;) {
       result.emplace_back(word.substr(0, comma));
       word.remove_prefix(comma + 1);
@@ -99,6 +105,8 @@ void finishOptions(Options& o) {
   if (!o.cropWindow.empty()) {
     o.build.cropWindow.emplace();
     std::copy(o.cropWindow.begin(), o.cropWindow.end(), o.build.cropWindow->begin());
+    for (const float x : o.cropWindow)
+      if (!std::isfinite(x)) throw Error("--cropwindow takes numbers from 0 to 1", Failure::usage);
   }
   if (!o.pixelBounds.empty()) {
     o.build.pixelBounds.emplace();

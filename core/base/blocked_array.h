@@ -1,6 +1,6 @@
 #pragma once
-// A two-dimensional array stored block by block, so that neighbours in both directions share
-// cache lines, and a block is one contiguous piece of memory.
+// A two-dimensional array stored block by block: neighbours in both directions share cache lines,
+// and one thread can own a block without touching the lines of another.
 
 #include <vector>
 
@@ -8,33 +8,40 @@
 
 namespace pbrt {
 
-template <class T, int LogBlock>
+// Blocks are squares of `size` cells, numbered row by row; those at the right and lower edge may
+// stand out of the array. With an apron each block also stores that many cells beyond its edges,
+// its own and not its neighbours'.
+template <class T>
 class BlockedArray {
  public:
-  static constexpr int kBlock = 1 << LogBlock;
-
   BlockedArray() = default;
-  BlockedArray(int width, int height)
-      : width_(width),
-        height_(height),
-        blocksX_((width + kBlock - 1) >> LogBlock),
-        data_(static_cast<std::size_t>(blocksX_) * ((height + kBlock - 1) >> LogBlock) * kBlock *
-              kBlock) {}
+  // Throws std::bad_alloc or std::length_error.
+  BlockedArray(int width, int height, int size, int apron = 0)
+      : size_(size),
+        apron_(apron),
+        across_((width + size - 1) / size),
+        down_((height + size - 1) / size),
+        stride_(size + 2 * apron),
+        cells_(std::size_t(across_) * down_ * stride_ * stride_) {}
 
-  int width() const { return width_; }
-  int height() const { return height_; }
+  int size() const { return size_; }
+  int apron() const { return apron_; }
+  int stride() const { return stride_; }  // cells in a row of a block with its apron
+  int across() const { return across_; }
+  int down() const { return down_; }
+  int blocks() const { return across_ * down_; }
+  // The cell of the whole array at the upper left corner of a block, within its apron.
+  Point2i corner(int block) const { return Point2i(block % across_, block / across_) * size_; }
 
-  T& operator()(int x, int y) { return data_[index(x, y)]; }
-  const T& operator()(int x, int y) const { return data_[index(x, y)]; }
+  // Row y of a block, from 0 to stride() - 1, from the upper left corner of its apron.
+  T* row(int block, int y) { return &cells_[index(block, y)]; }
+  const T* row(int block, int y) const { return &cells_[index(block, y)]; }
 
  private:
-  std::size_t index(int x, int y) const {
-    const auto block = static_cast<std::size_t>(y >> LogBlock) * blocksX_ + (x >> LogBlock);
-    return (block << (2 * LogBlock)) + ((y & (kBlock - 1)) << LogBlock) + (x & (kBlock - 1));
-  }
+  std::size_t index(int block, int y) const { return (std::size_t(block) * stride_ + y) * stride_; }
 
-  int width_ = 0, height_ = 0, blocksX_ = 0;
-  std::vector<T> data_;
+  int size_ = 1, apron_ = 0, across_ = 0, down_ = 0, stride_ = 1;
+  std::vector<T> cells_;
 };
 
 }  // namespace pbrt

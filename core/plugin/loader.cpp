@@ -81,7 +81,7 @@ const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
   if (isName(name))
     for (const fs::path& directory : path_) {
       const fs::path candidate = directory / kindFolder(kind) / (name + ".so");
-      if (fs::exists(candidate)) {
+      if (std::error_code unreadable; fs::exists(candidate, unreadable)) {
         file = fs::absolute(candidate);
         break;
       }

@@ -116,6 +116,9 @@ std::vector<V> Params::list(const std::string& name, std::span<const ParamType> 
     std::vector<V> values(flat.size() / n);
     for (std::size_t i = 0; i < flat.size(); ++i)
       reinterpret_cast<float*>(values.data())[i] = flat[i];
+    if (p->type == ParamType::xyz)
+      if constexpr (std::is_same_v<V, Spectrum>)
+        for (Spectrum& value : values) value = rgbFromXyz(value);
     return values;
   }
 }
@@ -234,18 +237,25 @@ Spectrum Params::spectrum(const std::string& name, const Spectrum& fallback,
   return p ? single<Spectrum>(*this, *p) : fallback;
 }
 
+// The texture that a parameter names, by one of the library's two functions.
+template <class T>
+std::shared_ptr<const Texture<T>> Params::named(
+    const Param& p, std::shared_ptr<const Texture<T>> (TextureLibrary::*find)(const std::string&)) {
+  if (!textures_) fail(p.name, "cannot be a texture here");
+  try {
+    return (textures_->*find)(std::get<std::vector<std::string>>(p.values).at(0));
+  } catch (const Error& error) {
+    throw error.at(p.valueWhere);
+  }
+}
+
 Textured<float> Params::floatTexture(const std::string& name, float fallback,
                                      std::string_view meaning, std::string_view unit) {
   declare(name, "float or texture", fmt::format("{}", fallback), meaning, unit);
   const Param* p = find(name, kNumberOrTexture, "float\" or \"texture");
   if (!p) return Textured<float>(fallback);
   if (p->type != ParamType::texture) return Textured<float>(single<float>(*this, *p));
-  try {
-    return Textured<float>(
-        textures_->floatTexture(std::get<std::vector<std::string>>(p->values).at(0)));
-  } catch (const Error& error) {
-    throw error.at(p->valueWhere);
-  }
+  return Textured<float>(named(*p, &TextureLibrary::floatTexture));
 }
 
 Textured<Spectrum> Params::spectrumTexture(const std::string& name, const Spectrum& fallback,
@@ -254,12 +264,7 @@ Textured<Spectrum> Params::spectrumTexture(const std::string& name, const Spectr
   const Param* p = find(name, kColourOrTexture, "rgb\" or \"texture");
   if (!p) return Textured<Spectrum>(fallback);
   if (p->type != ParamType::texture) return Textured<Spectrum>(single<Spectrum>(*this, *p));
-  try {
-    return Textured<Spectrum>(
-        textures_->spectrumTexture(std::get<std::vector<std::string>>(p->values).at(0)));
-  } catch (const Error& error) {
-    throw error.at(p->valueWhere);
-  }
+  return Textured<Spectrum>(named(*p, &TextureLibrary::spectrumTexture));
 }
 
 std::optional<Textured<float>> Params::optionalFloatTexture(const std::string& name,
@@ -316,12 +321,16 @@ bool Params::has(const std::string& name) const {
   return false;
 }
 
-void Params::fail(const std::string& name, const std::string& text) const {
-  const std::string complaint = message(fmt::format("\"{}\" {}", name, text));
+// The value that find() would choose; the statement, if there is none.
+Location Params::place(const std::string& name) const {
   for (const Use& use : uses_)
     for (auto p = use.list->rbegin(); p != use.list->rend(); ++p)
-      if (p->name == name) throw Error(count(*p) ? p->valueWhere : p->where, complaint);
-  throw Error(where_, complaint);
+      if (p->name == name) return count(*p) ? p->valueWhere : p->where;
+  return where_;
+}
+
+void Params::fail(const std::string& name, const std::string& text) const {
+  throw Error(place(name), message(fmt::format("\"{}\" {}", name, text)));
 }
 
 void Params::require(const std::string& name) const {
@@ -329,12 +338,9 @@ void Params::require(const std::string& name) const {
 }
 
 void Params::warn(const std::string& name, const std::string& text) const {
-  if (!report_) return;
-  Location where = where_;
-  for (const Use& use : uses_)
-    for (const Param& p : *use.list)
-      if (p.name == name) where = p.valueWhere;
-  report_(diagnose(Severity::warning, where, message(fmt::format("\"{}\" {}", name, text))));
+  if (report_)
+    report_(
+        diagnose(Severity::warning, place(name), message(fmt::format("\"{}\" {}", name, text))));
 }
 
 std::vector<const Param*> Params::unread(std::size_t i) const {

@@ -114,6 +114,11 @@ class Params {
   template <class V>
   std::vector<V> list(const std::string& name, std::span<const ParamType> types,
                       std::string_view type, std::string_view meaning, std::string_view unit = "");
+  template <class T>
+  std::shared_ptr<const Texture<T>> named(
+      const Param& p,
+      std::shared_ptr<const Texture<T>> (TextureLibrary::*find)(const std::string&));
+  Location place(const std::string& name) const;
   std::string message(const std::string& text) const { return what_ + ": " + text; }
 
   std::string what_;

@@ -78,6 +78,13 @@ void setLane(Ray16& e, int i, const Ray& r) {
   e.time[i] = 0, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
 }
 
+// Embree leaves out, without a word, what reaches farther than 1.8e18.
+void checkReach(const Bounds3& b) {
+  const Bounds3 all{Point3(-1e18F), Point3(1e18F)};
+  if (!b.empty() && !(all.contains(b.lo) && all.contains(b.hi)))
+    throw Error("the shape reaches farther than 1e18 from the camera, too far for the ray tracer");
+}
+
 }  // namespace
 
 struct Accel::UserGeometry {
@@ -147,6 +154,9 @@ Accel::~Accel() {
 }
 
 void Accel::add(TriangleMesh& mesh) {
+  Bounds3 bounds;
+  for (const Point3& p : mesh.positions) bounds.add(p);
+  checkReach(bounds);
   mesh.positions.reserve(mesh.positions.size() + 1);
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
@@ -160,6 +170,8 @@ void Accel::add(TriangleMesh& mesh) {
 }
 
 void Accel::add(const Shape& shape, const Transform& toScene) {
+  for (std::uint32_t i = 0; i < shape.primitives(); ++i)
+    checkReach(toScene.bounds(shape.bounds(i)));
   users_.push_back(
       std::make_unique<UserGeometry>(UserGeometry{&shape, toScene.inverse(), toScene}));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_USER);

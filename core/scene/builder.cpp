@@ -38,24 +38,30 @@ bool SceneBuilder::handleStack(const Directive& d) {
   switch (d.kind) {
     case AttributeBegin:
     case TransformBegin:
-      stack_.push_back({attributes_, transforms_.current(), d.where, d.kind == AttributeBegin});
+      save(d);
       return true;
     case AttributeEnd:
-      restore(d, true);
+      restore(d, AttributeBegin);
       return true;
     case TransformEnd:
-      restore(d, false);
+      restore(d, TransformBegin);
       return true;
     default:
       return false;
   }
 }
 
-void SceneBuilder::restore(const Directive& d, bool wholeState) {
-  if (stack_.empty() || stack_.back().wholeState != wholeState)
-    throw Error(d.where, fmt::format("{} without {}", directiveName(d.kind),
-                                     wholeState ? "an AttributeBegin" : "a TransformBegin"));
-  if (wholeState) attributes_ = std::move(stack_.back().attributes);
+void SceneBuilder::save(const Directive& d) {
+  stack_.push_back({attributes_, transforms_.current(), d.where, d.kind});
+}
+
+void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
+  if (stack_.empty())
+    throw Error(d.where, fmt::format("{} without {}", directiveName(d.kind), directiveName(begin)));
+  if (const DirectiveKind open = stack_.back().begin; open != begin)
+    throw Error(d.where, fmt::format("{} without {}: what is open is {}", directiveName(d.kind),
+                                     directiveName(begin), directiveName(open)));
+  if (begin != DirectiveKind::TransformBegin) attributes_ = std::move(stack_.back().attributes);
   transforms_.setCurrent(stack_.back().transform);
   stack_.pop_back();
 }
@@ -100,12 +106,14 @@ bool SceneBuilder::handleOption(Directive& d) {
 
 void SceneBuilder::beginWorld(const Directive& d) {
   if (inWorld_) throw Error(d.where, "WorldBegin inside the world");
+  if (!stack_.empty())
+    throw Error(d.where, fmt::format("WorldBegin inside {}", directiveName(stack_.back().begin)));
   inWorld_ = worldSeen_ = true;
   // Everything is built in a space whose origin is the camera, where floats are densest.
   const DPoint3 eye = cameraFromWorld_.inverse().point(DPoint3(0));
   const Transform renderFromWorld = Transform::translate(-eye);
-  transforms_.name("camera", renderFromWorld * cameraFromWorld_.inverse());
-  transforms_.name("world", renderFromWorld);
+  transforms_.name("camera", cameraFromWorld_.inverse());
+  transforms_.name("world", Transform());
   transforms_.setBase(renderFromWorld);
 }
 
@@ -130,8 +138,8 @@ bool SceneBuilder::handleAttribute(Directive& d) {
       const std::string plugin = words[0];
       d.params.erase(type);
       auto named = std::make_shared<NamedMaterials>(*attributes_.namedMaterials);
-      (*named)[d.words.at(0)] =
-          std::make_shared<MaterialDefinition>(plugin, std::move(d.params), d.where);
+      (*named)[d.words.at(0)] = std::make_shared<MaterialDefinition>(plugin, std::move(d.params),
+                                                                     d.where, attributes_.textures);
       attributes_.namedMaterials = std::move(named);
       return true;
     }
@@ -147,6 +155,7 @@ bool SceneBuilder::handleAttribute(Directive& d) {
       return true;
     }
     case DirectiveKind::Texture: {
+      if (!inWorld_) throw Error(d.where, "Texture belongs after WorldBegin");
       const std::string& type = d.words.at(1);
       const bool isSpectrum = type == "color" || type == "spectrum" || type == "rgb";
       if (!isSpectrum && type != "float")
@@ -200,12 +209,10 @@ bool SceneBuilder::handleWorld(Directive& d) {
     case ObjectBegin:
       if (openObject_) throw Error(d.where, "ObjectBegin inside an object");
       openObject_ = &(objects_[d.words.at(0)] = {});
-      openObjectWhere_ = d.where;
-      stack_.push_back({attributes_, transforms_.current(), d.where, true});
+      save(d);
       return true;
     case ObjectEnd:
-      if (!openObject_) throw Error(d.where, "ObjectEnd without an ObjectBegin");
-      restore(d, true);
+      restore(d, ObjectBegin);
       openObject_ = nullptr;
       return true;
     case ObjectInstance:

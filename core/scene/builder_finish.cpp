@@ -97,11 +97,8 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
     factory_.report(Severity::warning, where, message);
   };
   if (inWorld_) note({}, "the file ends without WorldEnd; the scene is taken to be complete");
-  if (openObject_) note(openObjectWhere_, "ObjectBegin is never closed");
   for (const Saved& saved : stack_)
-    if (!openObject_ || saved.where.begin != openObjectWhere_.begin)
-      note(saved.where,
-           saved.wholeState ? "AttributeBegin is never closed" : "TransformBegin is never closed");
+    note(saved.where, fmt::format("{} is never closed", directiveName(saved.begin)));
   if (!camera_) note({}, "the scene has no Camera: it is seen from 0 0 0 along +z");
 
   makeCameraAndFilm();

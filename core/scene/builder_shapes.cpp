@@ -57,7 +57,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
 void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
                                 const Transform& toRender, Geometry& g) {
   if (g.mesh)
-    g.sampler = meshSampler(*g.mesh, g.flip);
+    g.sampler = meshSampler(*g.mesh, g.flip, g.reverse);
   else if (const AreaSampler* sampler = g.shape->areaSampler())
     g.sampler = placedSampler(*sampler, g.toGroup, g.reverse);
   if (!g.sampler) {
@@ -69,6 +69,10 @@ void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
   }
   g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
                                  {toRender, g.sampler.get()});
+  if (g.light->isDelta() || g.light->isInfinite())
+    throw Error(light.where, fmt::format("a \"{}\" light is not the surface of a shape: it needs "
+                                         "LightSource",
+                                         light.words.at(0)));
 }
 
 void SceneBuilder::addInstance(const Directive& d) {

@@ -13,13 +13,24 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float
       scale_(scale),
       brightest_(brightest),
       radius_(filter.radius()) {
+  // Beyond this the table below and the borders of the tiles have no sizes.
+  constexpr float kLeast = 1e-3F, kMost = 1e3F;
+  for (int i = 0; i < 2; ++i)
+    if (!(radius_[i] >= kLeast && radius_[i] <= kMost))
+      throw Error(fmt::format("the filter reaches over {} pixels; it must be from {} to {}",
+                              radius_[i], kLeast, kMost));
   // The centre of pixel i is at i + 1/2; a sample at x reaches the centres within the radius.
+  constexpr float kWidest = 256;
+  if (!(std::max(radius_.x, radius_.y) <= kWidest))
+    throw Error(fmt::format("a filter cannot reach farther than {} pixels", kWidest));
   const Point2i reach(glm::ceil(radius_ - 0.5F));
-  border_ = std::max({reach.x, reach.y, 0});
   sampled_ = {crop.lo - reach, crop.hi + reach};
-  tilesX_ = (sampled_.width() + kTile - 1) / kTile;
-  tilesY_ = (sampled_.height() + kTile - 1) / kTile;
-  stride_ = kTile + 2 * border_;
+  try {
+    sums_ = {sampled_.width(), sampled_.height(), kTile, std::max({reach.x, reach.y, 0})};
+  } catch (const std::exception&) {
+    throw Error(
+        fmt::format("not enough memory for a film of {} x {} pixels", crop.width(), crop.height()));
+  }
 
   // Weights at the centres of the table's cells: positions are rounded to 1/32 of the radius.
   tableScale_ = static_cast<float>(kTable) / radius_;
@@ -27,36 +38,28 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float
   for (int y = 0; y < kTable; ++y)
     for (int x = 0; x < kTable; ++x)
       table_[y * kTable + x] = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
-
-  const std::size_t count = std::size_t(tiles()) * stride_ * stride_;
-  try {
-    sums_.resize(count);
-  } catch (const std::exception&) {
-    throw Error(fmt::format("not enough memory for a film of {} x {} pixels ({} MiB)", crop.width(),
-                            crop.height(), count * sizeof(Sum) >> 20U));
-  }
 }
 
 Bounds2i Film::tilePixels(int tile) const {
-  const Point2i lo = sampled_.lo + Point2i(tile % tilesX_, tile / tilesX_) * kTile;
+  const Point2i lo = sampled_.lo + sums_.corner(tile);
   return intersect(sampled_, {lo, lo + kTile});
 }
 
 void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
   Spectrum L = radiance * scale_;
   if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
-  const Point2i origin = sampled_.lo + Point2i(tile % tilesX_, tile / tilesX_) * kTile - border_;
+  const Point2i origin = sampled_.lo + sums_.corner(tile) - sums_.apron();
   // Sample and pixel centres in the tile's own pixels, so that truncation rounds down.
   const Point2 p = film - Point2(origin) - 0.5F;
   const int x0 = std::max(0, static_cast<int>(p.x - radius_.x) + (p.x >= radius_.x));
   const int y0 = std::max(0, static_cast<int>(p.y - radius_.y) + (p.y >= radius_.y));
-  const int x1 = std::min(stride_ - 1, static_cast<int>(p.x + radius_.x));
-  const int y1 = std::min(stride_ - 1, static_cast<int>(p.y + radius_.y));
+  const int x1 = std::min(sums_.stride() - 1, static_cast<int>(p.x + radius_.x));
+  const int y1 = std::min(sums_.stride() - 1, static_cast<int>(p.y + radius_.y));
   for (int y = y0; y <= y1; ++y) {
     const int ty = std::min(
         kTable - 1, static_cast<int>(std::abs(static_cast<float>(y) - p.y) * tableScale_.y));
     const float* weights = &table_[ty * kTable];
-    Sum* sums = row(tile, y);
+    Sum* sums = sums_.row(tile, y);
     for (int x = x0; x <= x1; ++x) {
       const int tx = std::min(
           kTable - 1, static_cast<int>(std::abs(static_cast<float>(x) - p.x) * tableScale_.x));
@@ -79,18 +82,20 @@ Image Film::image() const {
   const std::size_t n = std::size_t(crop_.width()) * crop_.height();
   image.channels.assign(4, std::vector<float>(n));
 
+  const int border = sums_.apron();
   std::size_t i = 0;
   for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
     for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
       // The tiles whose sums, with their borders, cover this pixel.
       const Point2i p = Point2i(x, y) - sampled_.lo;
-      const Point2i first = glm::max(p - border_, 0) / kTile;
-      const Point2i last = glm::min((p + border_) / kTile, Point2i(tilesX_, tilesY_) - 1);
+      const Point2i first = glm::max(p - border, 0) / kTile;
+      const Point2i last =
+          glm::min((p + border) / kTile, Point2i(sums_.across(), sums_.down()) - 1);
       Sum sum;
       for (int ty = first.y; ty <= last.y; ++ty)
         for (int tx = first.x; tx <= last.x; ++tx) {
-          const Point2i in = p - Point2i(tx, ty) * kTile + border_;
-          const Sum& s = row(ty * tilesX_ + tx, in.y)[in.x];
+          const Point2i in = p - Point2i(tx, ty) * kTile + border;
+          const Sum& s = sums_.row(ty * sums_.across() + tx, in.y)[in.x];
           sum.r += s.r, sum.g += s.g, sum.b += s.b;
           sum.alpha += s.alpha, sum.weight += s.weight;
         }

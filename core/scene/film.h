@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/api/filter.h"
+#include "core/base/blocked_array.h"
 #include "core/base/image.h"
 #include "core/base/spectrum.h"
 
@@ -30,7 +31,7 @@ class Film {
   // Pixels in which samples are taken: the crop and, about it, the filter's reach.
   const Bounds2i& sampledPixels() const { return sampled_; }
 
-  int tiles() const { return tilesX_ * tilesY_; }
+  int tiles() const { return sums_.blocks(); }
   Bounds2i tilePixels(int tile) const;
 
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)).
@@ -48,21 +49,13 @@ class Film {
 
   static constexpr int kTable = 32;  // filter table, cells per radius
 
-  Sum* row(int tile, int y) { return &sums_[(std::size_t(tile) * stride_ + y) * stride_]; }
-  const Sum* row(int tile, int y) const {
-    return &sums_[(std::size_t(tile) * stride_ + y) * stride_];
-  }
-
   Point2i resolution_;
   Bounds2i crop_, sampled_;
-  int tilesX_ = 0, tilesY_ = 0;
   float scale_, brightest_;
   Vec2 radius_;
   Vec2 tableScale_;
-  int border_ = 0;            // pixels beyond a tile that its samples reach
-  int stride_ = 0;            // pixels in a row of a tile with its borders
   std::vector<float> table_;  // filter weights over one quadrant
-  std::vector<Sum> sums_;     // tile by tile, rows from the top, each with its border
+  BlockedArray<Sum> sums_;    // a block a tile; the apron is what the filter reaches beyond it
 };
 
 }  // namespace pbrt

@@ -12,6 +12,11 @@ void TransformState::set(const Transform& t, const Directive& d) {
   if (active_) current_ = t;
 }
 
+void TransformState::setBase(const Transform& base) {
+  current_ = base_ = base;
+  for (auto& entry : named_) entry.second = base * entry.second;
+}
+
 bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& report) {
   using enum DirectiveKind;
   const auto& x = d.numbers;
@@ -47,6 +52,10 @@ bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& 
     case ConcatTransform: {
       glm::dmat4 m;
       for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = x[i];
+      if (x[3] != 0 || x[7] != 0 || x[11] != 0 || x[15] != 1)
+        throw Error(d.where, fmt::format("{}: every fourth number must be 0, the last one 1 "
+                                         "(projections belong to the camera)",
+                                         directiveName(d.kind)));
       set((d.kind == ConcatTransform ? current_ : base_) * pbrt::Transform(m), d);
       return true;
     }

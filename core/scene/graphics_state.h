@@ -32,8 +32,9 @@ class TransformState {
   const Transform& current() const { return current_; }
   void setCurrent(const Transform& t) { current_ = t; }
   const Transform& base() const { return base_; }
-  // What Identity means from here on; becomes the current transform.
-  void setBase(const Transform& base) { current_ = base_ = base; }
+  // Moves all into another space: `base` maps to it from the present one. It is what Identity means
+  // from here on, and becomes the current transform.
+  void setBase(const Transform& base);
   void name(const std::string& name, const Transform& t) { named_[name] = t; }
 
  private:

@@ -24,9 +24,24 @@ float planeError(const Point3& a, const Point3& b, const Point3& c) {
   return gammaBound(8) * (std::max({size.x, size.y, size.z}) + std::max({edge.x, edge.y, edge.z}));
 }
 
+// The unit normal of a triangle by its winding; zero if it has no area. In double, as the squares
+// of edges below 1e-12 or above 1e9 leave float.
+Normal3 windingNormal(const Point3& a, const Point3& b, const Point3& c) {
+  const DVec3 n = glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
+  const double l2 = lengthSquared(n);
+  return l2 > 0 ? Normal3(n / std::sqrt(l2)) : Normal3(0);
+}
+
+// The interpolated normal, of any length; zero if the mesh has none.
+Normal3 vertexNormal(const TriangleMesh& mesh, const Corners& t, float wa, float wb, float wc) {
+  if (mesh.normals.empty()) return Normal3(0);
+  return wa * mesh.normals[t.a] + wb * mesh.normals[t.b] + wc * mesh.normals[t.c];
+}
+
 class MeshSampler final : public AreaSampler {
  public:
-  MeshSampler(const TriangleMesh& mesh, bool flip) : mesh_(mesh), flip_(flip) {
+  MeshSampler(const TriangleMesh& mesh, bool flip, bool reverse)
+      : mesh_(mesh), flip_(flip), reverse_(reverse) {
     double sum = 0;
     cumulative_.reserve(mesh.triangles());
     for (std::size_t i = 0; i < mesh.triangles(); ++i) {
@@ -51,9 +66,13 @@ class MeshSampler final : public AreaSampler {
     const Point2 w = uniformTriangle({std::clamp(rest, 0.F, kOneMinusEpsilon), u.y});
 
     AreaSample s;
-    s.p = DPoint3(a) * double(w.x) + DPoint3(b) * double(w.y) + DPoint3(c) * double(1 - w.x - w.y);
+    const float wc = 1 - w.x - w.y;
+    s.p = DPoint3(a) * double(w.x) + DPoint3(b) * double(w.y) + DPoint3(c) * double(wc);
     s.error = planeError(a, b, c);
-    s.n = glm::normalize(glm::cross(b - a, c - a)) * (flip_ ? -1.F : 1.F);
+    // The same side as meshSurface() says, or the light would shine to the other one.
+    s.n = windingNormal(a, b, c) * (flip_ ? -1.F : 1.F);
+    const Normal3 ns = vertexNormal(mesh_, t, w.x, w.y, wc);
+    s.n = faceForward(s.n, reverse_ ? -ns : ns);
     s.pdf = pdf(from, s.p, s.n);
     return s;
   }
@@ -81,7 +100,7 @@ class MeshSampler final : public AreaSampler {
 
  private:
   const TriangleMesh& mesh_;
-  bool flip_;
+  bool flip_, reverse_;
   std::vector<double> cumulative_;  // area of all triangles up to and including the i-th
   Bounds3 bounds_;
 };
@@ -96,6 +115,16 @@ void transformMesh(TriangleMesh& mesh, const Transform& toScene) {
   }
   for (Normal3& n : mesh.normals)
     if (const float l2 = lengthSquared(n); l2 > 0) n /= std::sqrt(l2);
+
+  // A triangle without area has no normal, and rounding may let a ray hit it.
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < mesh.triangles(); ++i) {
+    const Corners t = corners(mesh, i);
+    if (windingNormal(mesh.positions[t.a], mesh.positions[t.b], mesh.positions[t.c]) == Normal3(0))
+      continue;
+    for (int k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[3 * i + k];
+  }
+  mesh.indices.resize(kept);
 }
 
 SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool flip, bool reverse) {
@@ -107,7 +136,7 @@ SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool fl
   SurfaceInteraction s;
   s.p = wa * a + wb * b + wc * c;
   s.error = planeError(a, b, c);
-  s.n = glm::normalize(glm::cross(ab, ac));
+  s.n = windingNormal(a, b, c);
   if (flip) s.n = -s.n;
 
   const bool hasUv = !mesh.uv.empty();
@@ -132,17 +161,18 @@ SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool fl
   }
 
   s.ns = s.n;
-  if (!mesh.normals.empty()) {
-    const Normal3 na = mesh.normals[t.a], nb = mesh.normals[t.b], nc = mesh.normals[t.c];
-    const Normal3 ns = wa * na + wb * nb + wc * nc;
-    if (const float l2 = lengthSquared(ns); l2 > 0) {
-      const float scale = (reverse ? -1 : 1) / std::sqrt(l2);
-      s.ns = ns * scale;
-      s.n = faceForward(s.n, s.ns);
-      if (solvable) {
-        s.dndu = (d2.y * (nb - na) - d1.y * (nc - na)) * (inverse * scale);
-        s.dndv = (d1.x * (nc - na) - d2.x * (nb - na)) * (inverse * scale);
-      }
+  const Normal3 ns = vertexNormal(mesh, t, wa, wb, wc);
+  if (const float l2 = lengthSquared(ns); l2 > 0) {
+    const float scale = (reverse ? -1 : 1) / std::sqrt(l2);
+    s.ns = ns * scale;
+    s.n = faceForward(s.n, s.ns);
+    if (solvable) {
+      // Of a vector's direction only the part across it counts: d(n / |n|) = (dn)_across / |n|.
+      const Normal3 nab = mesh.normals[t.b] - mesh.normals[t.a];
+      const Normal3 nac = mesh.normals[t.c] - mesh.normals[t.a];
+      const auto across = [&](const Normal3& dn) { return dn - glm::dot(dn, s.ns) * s.ns; };
+      s.dndu = across((d2.y * nab - d1.y * nac) * (inverse * scale));
+      s.dndv = across((d1.x * nac - d2.x * nab) * (inverse * scale));
     }
   }
   s.tangent = s.dpdu;
@@ -151,8 +181,8 @@ SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool fl
   return s;
 }
 
-std::unique_ptr<AreaSampler> meshSampler(const TriangleMesh& mesh, bool flip) {
-  auto sampler = std::make_unique<MeshSampler>(mesh, flip);
+std::unique_ptr<AreaSampler> meshSampler(const TriangleMesh& mesh, bool flip, bool reverse) {
+  auto sampler = std::make_unique<MeshSampler>(mesh, flip, reverse);
   if (!(sampler->area() > 0)) return nullptr;
   return sampler;
 }

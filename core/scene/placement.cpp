@@ -30,6 +30,19 @@ Normal3 unitNormal(const Transform& t, const Normal3& n) {
   return Normal3(glm::normalize(t.normal(DVec3(n))));
 }
 
+// A shading normal and its derivatives. With N the inverse transpose, n' = N n / |N n|; of a
+// vector's direction only the part across it counts, so dn' is that part of N dn / |N n|.
+void transformNormals(const Transform& t, Normal3& n, Normal3& dndu, Normal3& dndv) {
+  const DVec3 moved = t.normal(DVec3(n));
+  const double scale = 1 / std::sqrt(lengthSquared(moved));
+  const DVec3 unit = moved * scale;
+  for (Normal3* derivative : {&dndu, &dndv}) {
+    const DVec3 d = t.normal(DVec3(*derivative)) * scale;
+    *derivative = Normal3(d - glm::dot(d, unit) * unit);
+  }
+  n = Normal3(unit);
+}
+
 // Directions seen through an affine map M: w' = M w / |M w|. An element of solid angle grows by
 // |det M| / |M w|^3, so a density per solid angle is divided by that. It is 1 for rotations,
 // translations and uniform scales, whatever their size.
@@ -103,12 +116,13 @@ SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, 
   s.error = static_cast<float>(o.error * stretch(toRender)) + gammaBound(3) * largest(s.p);
   const float side = reverse ? -1 : 1;
   s.n = unitNormal(toRender, o.n) * side;
-  s.ns = o.ns == Normal3(0) ? s.n : unitNormal(toRender, o.ns) * side;
+  s.ns = (o.ns == Normal3(0) ? o.n : o.ns) * side;
+  s.dndu = o.dndu * side;
+  s.dndv = o.dndv * side;
+  transformNormals(toRender, s.ns, s.dndu, s.dndv);
   s.uv = o.uv;
   s.dpdu = Vec3(toRender.vector(DVec3(o.dpdu)));
   s.dpdv = Vec3(toRender.vector(DVec3(o.dpdv)));
-  s.dndu = Normal3(toRender.normal(DVec3(o.dndu))) * side;
-  s.dndv = Normal3(toRender.normal(DVec3(o.dndv))) * side;
   s.tangent = s.dpdu;
   return s;
 }
@@ -117,12 +131,18 @@ void transformInteraction(SurfaceInteraction& s, const Transform& t) {
   s.p = Point3(t.point(DPoint3(s.p)));
   s.error = static_cast<float>(s.error * stretch(t)) + gammaBound(3) * largest(s.p);
   s.n = unitNormal(t, s.n);
-  s.ns = unitNormal(t, s.ns);
+  transformNormals(t, s.ns, s.dndu, s.dndv);
   s.dpdu = Vec3(t.vector(DVec3(s.dpdu)));
   s.dpdv = Vec3(t.vector(DVec3(s.dpdv)));
-  s.dndu = Normal3(t.normal(DVec3(s.dndu)));
-  s.dndv = Normal3(t.normal(DVec3(s.dndv)));
   s.tangent = Vec3(t.vector(DVec3(s.tangent)));
+}
+
+// Embree inverts the map and moves the ray's origin with it in floats: a dozen roundings of numbers
+// up to |M^-1| (|p| + |translation|), which come back stretched by |M|.
+float instanceError(const Transform& toRender, const Point3& p) {
+  const double condition = stretch(toRender) * stretch(toRender.inverse());
+  const Vec3 translation(DVec3(toRender.matrix()[3]));
+  return gammaBound(12) * static_cast<float>(condition) * (largest(p) + largest(translation));
 }
 
 std::unique_ptr<AreaSampler> placedSampler(const AreaSampler& sampler, const Transform& toRender,

@@ -15,6 +15,10 @@ SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, 
 // Carries points, directions and derivatives of an interaction to another space.
 void transformInteraction(SurfaceInteraction& s, const Transform& t);
 
+// How far off the point p of an instance a ray may start or end because it is traced in the
+// instance's own space.
+float instanceError(const Transform& toRender, const Point3& p);
+
 // A shape's sampler in another space.
 std::unique_ptr<AreaSampler> placedSampler(const AreaSampler& sampler, const Transform& toRender,
                                            bool reverse);

@@ -18,6 +18,14 @@ constexpr int kGroup = 4;
 constexpr int kBatch = kGroup * kGroup;
 static_assert(kBatch == World::kBatch);
 
+// The place u of a pixel. It is in the pixel still when the sum is rounded.
+Point2 inPixel(Point2i pixel, Point2 u) {
+  Point2 p = Point2(pixel) + u;
+  for (int i = 0; i < 2; ++i)
+    if (p[i] >= static_cast<float>(pixel[i] + 1)) p[i] = std::nextafter(p[i], -kInfinity);
+  return p;
+}
+
 // What one thread works with.
 struct Worker {
   explicit Worker(const Sampler& prototype) {
@@ -59,7 +67,7 @@ struct TileJob {
         Sampler& sampler = *worker.samplers[n];
         sampler.start({x, y}, index);
         CameraSample& sample = worker.samples[n];
-        sample.film = Point2(x, y) + sampler.pixel2D();
+        sample.film = inPixel({x, y}, sampler.pixel2D());
         if (lens) sample.lens = sampler.get2D();  // nothing moves yet: no time is drawn
         worker.cameraRays[n] = world.camera().generate(sample, world.filters());
         if (world.filters()) worker.cameraRays[n].ray.scaleDifferentials(differentialScale);

@@ -78,7 +78,8 @@ std::shared_ptr<const Texture<T>> TextureScope::find(const std::string& name, En
 }
 
 std::shared_ptr<const Material> MaterialDefinition::shared(
-    Factory& factory, const std::shared_ptr<TextureScope>& scope) {
+    Factory& factory, const std::shared_ptr<TextureScope>& shapeScope) {
+  const std::shared_ptr<TextureScope>& scope = scope_ ? scope_ : shapeScope;
   const bool usesTextures = std::any_of(
       params_.begin(), params_.end(), [](const Param& p) { return p.type == ParamType::texture; });
   if (!built_ || (usesTextures && builtIn_ != scope)) {

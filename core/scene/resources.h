@@ -94,14 +94,21 @@ class TextureScope final : public TextureLibrary {
 // A Material or MakeNamedMaterial statement.
 class MaterialDefinition {
  public:
-  MaterialDefinition(std::string plugin, ParamList params, Location where)
-      : plugin_(std::move(plugin)), params_(std::move(params)), where_(where) {}
+  // `scope`: where a named material finds its textures, that of its statement. Null for an unnamed
+  // one: as in pbrt, it finds them where the shape is.
+  MaterialDefinition(std::string plugin, ParamList params, Location where,
+                     std::shared_ptr<TextureScope> scope = nullptr)
+      : plugin_(std::move(plugin)),
+        params_(std::move(params)),
+        where_(where),
+        scope_(std::move(scope)) {}
 
-  // The material for shapes that add nothing to it; built once for each scope that matters.
+  // The material for shapes in `shapeScope` that add nothing to it; built once for each scope that
+  // matters.
   std::shared_ptr<const Material> shared(Factory& factory,
-                                         const std::shared_ptr<TextureScope>& scope);
-  // The material with some parameters of a shape before its own. Those that it does not know
-  // either are left in `overrides`.
+                                         const std::shared_ptr<TextureScope>& shapeScope);
+  // The material with some parameters of a shape before its own, all textures from the scope of the
+  // shape. Those that it does not know either are left in `overrides`.
   std::shared_ptr<const Material> overridden(Factory& factory, TextureScope& scope,
                                              ParamList& overrides);
 
@@ -109,6 +116,7 @@ class MaterialDefinition {
   std::string plugin_;
   ParamList params_;
   Location where_;
+  std::shared_ptr<TextureScope> scope_;
   std::shared_ptr<const Material> built_;
   std::shared_ptr<TextureScope> builtIn_;
 };

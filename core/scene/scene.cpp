@@ -75,6 +75,7 @@ SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) co
     s = placedSurface(*g.shape, instance ? instance->toRender * g.toGroup : g.toGroup, g.reverse,
                       ray, shapeHit);
   }
+  if (instance) s.error += instanceError(instance->toRender, s.p);
   s.wo = -glm::normalize(ray.d);
   s.time = ray.time;
   s.material = g.material.get();

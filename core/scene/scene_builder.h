@@ -41,7 +41,7 @@ class SceneBuilder {
     Attributes attributes;
     Transform transform;
     Location where;
-    bool wholeState;  // AttributeBegin rather than TransformBegin
+    DirectiveKind begin;  // AttributeBegin, TransformBegin or ObjectBegin
   };
 
   bool handleOption(Directive& d);
@@ -49,7 +49,8 @@ class SceneBuilder {
   bool handleAttribute(Directive& d);
   bool handleWorld(Directive& d);
   void beginWorld(const Directive& d);
-  void restore(const Directive& d, bool wholeState);
+  void save(const Directive& d);
+  void restore(const Directive& d, DirectiveKind begin);
   void refuseUnsupported(const Directive& d) const;
 
   void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
@@ -74,7 +75,6 @@ class SceneBuilder {
   bool inWorld_ = false, worldSeen_ = false;
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
-  Location openObjectWhere_;
 
   std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
   Transform cameraFromWorld_;  // as of the Camera statement

@@ -14,21 +14,21 @@ Geometry geometry(const Vec3& wo, const Vec3& wi) {
   return {o.z, i.z, h.z, glm::dot(o, h)};
 }
 
-// From a medium of index 1.5 into vacuum.
-double fresnel(double cosI) {
-  const double sinT = 1.5 * std::sqrt(1 - cosI * cosI);
+// From a medium of index ni into one of nt.
+double fresnel(double cosI, double ni, double nt) {
+  const double sinT = ni / nt * std::sqrt(1 - cosI * cosI);
   if (sinT >= 1) return 1;
   const double cosT = std::sqrt(1 - sinT * sinT);
-  const double rs = (1.5 * cosI - cosT) / (1.5 * cosI + cosT);
-  const double rp = (cosI - 1.5 * cosT) / (cosI + 1.5 * cosT);
+  const double rs = (ni * cosI - nt * cosT) / (ni * cosI + nt * cosT);
+  const double rp = (nt * cosI - ni * cosT) / (nt * cosI + ni * cosT);
   return (rs * rs + rp * rp) / 2;
 }
 
 double blinn(const Geometry& g, double roughness) {
-  const double e = 1 / roughness;
+  const double e = 1 / roughness;  // pbrt-v1 and v2 have the plastic on the outside
   const double D = (e + 2) / (2 * std::numbers::pi) * std::pow(g.cosH, e);
   const double G = std::min({1.0, 2 * g.cosH * g.cosO / g.oh, 2 * g.cosH * g.cosI / g.oh});
-  return D * G * fresnel(g.oh) / (4 * g.cosO * g.cosI);
+  return D * G * fresnel(g.oh, 1.5, 1) / (4 * g.cosO * g.cosI);
 }
 
 double trowbridgeReitz(const Geometry& g, double alpha) {
@@ -40,7 +40,7 @@ double trowbridgeReitz(const Geometry& g, double alpha) {
   const double D = 1 / (std::numbers::pi * alpha * alpha * std::pow(g.cosH, 4) *
                         std::pow(1 + tan2H / (alpha * alpha), 2));
   const double G = 1 / (1 + lambda(g.cosO) + lambda(g.cosI));
-  return D * G * fresnel(g.oh) / (4 * g.cosO * g.cosI);
+  return D * G * fresnel(g.oh, 1, 1.5) / (4 * g.cosO * g.cosI);
 }
 
 void compare(const ParamList& set, double (*model)(const Geometry&, double), double width) {

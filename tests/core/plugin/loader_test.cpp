@@ -59,6 +59,11 @@ TEST(PluginLoader, ANameIsNeverAPath) {
     EXPECT_THROW(loader.open(PluginKind::shape, name), Error) << name;
 }
 
+TEST(PluginLoader, FoldersThatCannotBeReadArePassedOver) {
+  PluginLoader loader({std::string(5000, 'x'), "/dev/null", PBRT_BUILD_DIR "/lib/pbrt"});
+  EXPECT_NO_THROW(loader.open(PluginKind::shape, "sphere"));
+}
+
 TEST(PluginLoader, EarlierFoldersWin) {
   const test::Folder folder;
   std::filesystem::create_directories(folder.path() / "shapes");

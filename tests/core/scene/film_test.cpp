@@ -123,6 +123,11 @@ TEST(Film, BrightSamplesAreDarkenedBeforeScaling) {
   EXPECT_NEAR(film.image().channels[0][0], 20, 1e-4F);
 }
 
+TEST(Film, AFilterMayNotBeWiderThanMemory) {
+  const auto wide = test::make<Filter>("box", {test::number("xwidth", 1e9F)});
+  EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *wide), Error);
+}
+
 TEST(Film, TooLargeAFilmIsAClearError) {
   const auto box = test::make<Filter>("box");
   EXPECT_THROW(Film({1 << 16, 1 << 16}, {{0, 0}, {1 << 16, 1 << 16}}, *box), Error);

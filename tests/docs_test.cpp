@@ -1,0 +1,120 @@
+// The documents say what is true of the tree: quotations are verbatim, links lead somewhere.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+using Lines = std::vector<std::string>;
+
+const fs::path kRoot = PBRT_SOURCE_DIR;
+const fs::path kTutorial = kRoot / "docs" / "adding-a-plugin.md";
+
+// Without white space at the ends of lines.
+Lines linesOf(const fs::path& file) {
+  std::ifstream in(file);
+  EXPECT_TRUE(in) << file;
+  Lines lines;
+  for (std::string line; std::getline(in, line);)
+    lines.push_back(line.substr(0, line.find_last_not_of(" \t\r") + 1));
+  return lines;
+}
+
+std::string textOf(const fs::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
+  return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
+}
+
+struct Quotation {
+  std::string file;  // in "```cpp file"
+  Lines lines;
+};
+
+std::vector<Quotation> quotations(const fs::path& document) {
+  const std::string fence = "```cpp ";
+  std::vector<Quotation> found;
+  bool open = false;
+  for (const std::string& line : linesOf(document)) {
+    if (line == "```") {
+      open = false;
+    } else if (line.starts_with(fence)) {
+      found.push_back({line.substr(fence.size()), {}});
+      open = true;
+    } else if (open) {
+      found.back().lines.push_back(line);
+    }
+  }
+  return found;
+}
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> files = {kRoot / "README.md", kRoot / "CONTRIBUTING.md"};
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs"))
+    if (entry.path().extension() == ".md") files.push_back(entry.path());
+  return files;
+}
+
+TEST(Docs, QuotationsAreVerbatim) {
+  for (const fs::path& document : documents())
+    for (const Quotation& q : quotations(document)) {
+      const Lines source = linesOf(kRoot / q.file);
+      EXPECT_FALSE(std::ranges::search(source, q.lines).empty())
+          << document << " misquotes " << q.file << " from \"" << q.lines.at(0) << "\" on";
+    }
+}
+
+TEST(Docs, TheTutorialShowsAllOfTheSphere) {
+  Lines shown;
+  for (const Quotation& q : quotations(kTutorial))
+    if (q.file == "shapes/sphere.cpp") shown.insert(shown.end(), q.lines.begin(), q.lines.end());
+  EXPECT_EQ(shown, linesOf(kRoot / "shapes" / "sphere.cpp"));
+}
+
+TEST(Docs, AShapeNeedsFewerThan80Lines) {
+  const std::size_t lines = linesOf(kRoot / "shapes" / "sphere.cpp").size();
+  EXPECT_LT(lines, 80U);
+  const std::string tutorial = textOf(kTutorial);
+  for (const std::smatch& claim : matches(tutorial, std::regex("(\\d+) lines")))
+    EXPECT_EQ(claim[1], std::to_string(lines));
+}
+
+TEST(Docs, LinksLeadToFiles) {
+  for (const fs::path& document : documents()) {
+    const std::string text = textOf(document);
+    for (const std::smatch& link : matches(text, std::regex(R"(\]\(([^)#\s]+)[^)]*\))"))) {
+      const std::string target = link[1];
+      if (target.find("://") != std::string::npos) continue;
+      EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << ": " << target;
+    }
+  }
+}
+
+TEST(Docs, ExitCodesAreThoseOfFailure) {
+  const auto codes = [](const std::string& text, const char* pattern) {
+    std::set<std::string> found;
+    for (const std::smatch& code : matches(text, std::regex(pattern))) found.insert(code[1]);
+    return found;
+  };
+  std::smatch failure;
+  const std::string source = textOf(kRoot / "core" / "base" / "error.h");
+  ASSERT_TRUE(std::regex_search(source, failure, std::regex(R"(enum class Failure[^}]*\})")));
+  std::set<std::string> expected = codes(failure.str(), R"(= (\d+))");
+  expected.insert("0");
+  EXPECT_EQ(codes(textOf(kRoot / "README.md"), R"(\n\| (\d+) \|)"), expected);
+}
+
+}  // namespace
