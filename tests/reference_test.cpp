@@ -2,6 +2,8 @@
 // Averages over blocks leave little noise; what is left over must be the differences between the
 // generations that docs/scene-format.md names.
 
+#include <cstdio>
+
 #include "tests/scenes.h"
 
 namespace pbrt {
@@ -69,8 +71,11 @@ TEST_P(ReferencePicture, IsMatched) {
       sumA += a[i], sumB += b[i];
       squares += sqr(a[i] - b[i]);
     }
+    const double rms = std::sqrt(squares / static_cast<double>(a.size()));
+    std::printf("%-28s %s  mean %+.2f %%  rms of block means %.4f\n", r.name.c_str(), channel,
+                100 * (sumA / sumB - 1), rms);
     EXPECT_NEAR(sumA, sumB, 0.01 * sumB) << channel;
-    EXPECT_LT(std::sqrt(squares / static_cast<double>(a.size())), r.tolerance) << channel;
+    EXPECT_LT(rms, r.tolerance) << channel;
   }
 }
 

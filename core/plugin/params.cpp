@@ -240,10 +240,11 @@ Spectrum Params::spectrum(const std::string& name, const Spectrum& fallback,
 // The texture that a parameter names, by one of the library's two functions.
 template <class T>
 std::shared_ptr<const Texture<T>> Params::named(
-    const Param& p, std::shared_ptr<const Texture<T>> (TextureLibrary::*find)(const std::string&)) {
+    const Param& p,
+    std::shared_ptr<const Texture<T>> (TextureLibrary::*lookUp)(const std::string&)) {
   if (!textures_) fail(p.name, "cannot be a texture here");
   try {
-    return (textures_->*find)(std::get<std::vector<std::string>>(p.values).at(0));
+    return (textures_->*lookUp)(std::get<std::vector<std::string>>(p.values).at(0));
   } catch (const Error& error) {
     throw error.at(p.valueWhere);
   }

@@ -117,7 +117,7 @@ class Params {
   template <class T>
   std::shared_ptr<const Texture<T>> named(
       const Param& p,
-      std::shared_ptr<const Texture<T>> (TextureLibrary::*find)(const std::string&));
+      std::shared_ptr<const Texture<T>> (TextureLibrary::*lookUp)(const std::string&));
   Location place(const std::string& name) const;
   std::string message(const std::string& text) const { return what_ + ": " + text; }
 

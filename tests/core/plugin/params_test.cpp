@@ -67,9 +67,12 @@ TEST(Params, AbsentGivesTheDefault) {
 }
 
 TEST(Params, GivenGivesTheValue) {
-  const ParamList list = {number("n", 2),          integers("i", {3}),
-                          flag("f", true),         text("t", "y"),
-                          rgb("c", 0.1F, 0.2F, 1), value(ParamType::point3, "p", {1, 2, 3}),
+  const ParamList list = {number("n", 2),
+                          integers("i", {3}),
+                          flag("f", true),
+                          text("t", "y"),
+                          rgb("c", 0.1F, 0.2F, 1),
+                          value(ParamType::point3, "p", {1, 2, 3}),
                           value(ParamType::number, "l", {1, 2, 3, 4})};
   Params p = reader(list);
   EXPECT_EQ(p.number("n", 0, ""), 2);
@@ -91,7 +94,8 @@ TEST(Params, GivenGivesTheValue) {
 }
 
 TEST(Params, WrongTypesCountsAndRangesNameThePlace) {
-  const ParamList list = {placed(text("s", "word")), placed(value(ParamType::number, "two", {1, 2})),
+  const ParamList list = {placed(text("s", "word")),
+                          placed(value(ParamType::number, "two", {1, 2})),
                           placed(number("minus", -1)), placed(integers("many", {50})),
                           placed(value(ParamType::number, "none", {}))};
   Params p = reader(list);
@@ -133,8 +137,8 @@ TEST(Params, XyzIsConvertedWhereverAColourMayStand) {
 }
 
 TEST(Params, ATextureWhereThereIsNoLibraryIsAnError) {
-  const ParamList list = {placed(
-      {ParamType::texture, "t", {}, {}, std::vector<std::string>{"wood"}})};
+  const ParamList list = {
+      placed({ParamType::texture, "t", {}, {}, std::vector<std::string>{"wood"}})};
   Params p = reader(list);
   EXPECT_EQ(failure([&] { p.floatTexture("t", 0, ""); }).column, 23U);
   EXPECT_EQ(failure([&] { p.spectrumTexture("t", {}, ""); }).column, 23U);

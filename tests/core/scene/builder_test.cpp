@@ -67,9 +67,9 @@ TEST(Builder, TexturesAndNamedMaterialsAreScoped) {
   expectColour(seen(constant("t", "1 0 0") + "AttributeBegin\n" + constant("t", "0 0 1") +
                     "AttributeEnd\n" + use),
                {1, 0, 0});
-  EXPECT_TRUE(contains(
-      failure(world("AttributeBegin\n" + constant("t", "0 0 1") + "AttributeEnd\n" + use)),
-      "there is no color texture \"t\""));
+  EXPECT_TRUE(
+      contains(failure(world("AttributeBegin\n" + constant("t", "0 0 1") + "AttributeEnd\n" + use)),
+               "there is no color texture \"t\""));
   EXPECT_TRUE(contains(
       failure(world("AttributeBegin MakeNamedMaterial \"m\" \"string type\" \"matte\" AttributeEnd "
                     "NamedMaterial \"m\"")),
@@ -79,9 +79,10 @@ TEST(Builder, TexturesAndNamedMaterialsAreScoped) {
 TEST(Builder, AMaterialFindsItsTexturesAtTheShapeANamedOneAtItsStatement) {
   const std::string red = constant("t", "1 0 0"), blue = constant("t", "0 0 1");
   expectColour(seen(red + "Material \"matte\" \"texture Kd\" \"t\"\n" + blue + kDisk), {0, 0, 1});
-  expectColour(seen(red + "MakeNamedMaterial \"m\" \"string type\" \"matte\" \"texture Kd\" \"t\"\n" +
-                    blue + "NamedMaterial \"m\"\n" + kDisk),
-               {1, 0, 0});
+  expectColour(
+      seen(red + "MakeNamedMaterial \"m\" \"string type\" \"matte\" \"texture Kd\" \"t\"\n" + blue +
+           "NamedMaterial \"m\"\n" + kDisk),
+      {1, 0, 0});
 }
 
 TEST(Builder, ATextureMayNameAnEarlierOneOfItsOwnName) {
@@ -108,7 +109,8 @@ TEST(Builder, BlocksMustNest) {
   EXPECT_TRUE(contains(failure(world("TransformBegin AttributeEnd")), "is TransformBegin"));
   EXPECT_TRUE(contains(failure(world("ObjectEnd")), "ObjectEnd without ObjectBegin"));
   EXPECT_TRUE(contains(failure(world("ObjectBegin \"a\" ObjectBegin \"b\"")), "inside an object"));
-  EXPECT_TRUE(contains(failure(world("ObjectBegin \"a\" ObjectInstance \"a\"")), "inside an object"));
+  EXPECT_TRUE(
+      contains(failure(world("ObjectBegin \"a\" ObjectInstance \"a\"")), "inside an object"));
   EXPECT_TRUE(contains(failure(world("AttributeEnd", "AttributeBegin")),
                        "WorldBegin inside AttributeBegin"));
 }
@@ -127,11 +129,13 @@ TEST(Builder, RedefiningAnObjectLeavesItsInstances) {
 
 TEST(Builder, CoordinateSystemsFromBeforeTheWorldKeepTheirPlace) {
   // The current transform before WorldBegin maps the world to the camera, whose origin is at z = 5.
-  expectColour(seen(kRed + "CoordSysTransform \"camera\" Translate 0 0 5 Rotate 180 0 1 0\n" + kDisk),
-               {1, 0, 0});
+  expectColour(
+      seen(kRed + "CoordSysTransform \"camera\" Translate 0 0 5 Rotate 180 0 1 0\n" + kDisk),
+      {1, 0, 0});
   expectColour(seen(kRed + "Translate 9 9 9 CoordSysTransform \"world\"\n" + kDisk), {1, 0, 0});
   const std::string made = "TransformBegin Identity CoordinateSystem \"mine\" TransformEnd";
-  expectColour(seen(kRed + "Translate 9 9 9 CoordSysTransform \"mine\"\n" + kDisk, made), {1, 0, 0});
+  expectColour(seen(kRed + "Translate 9 9 9 CoordSysTransform \"mine\"\n" + kDisk, made),
+               {1, 0, 0});
 }
 
 TEST(Builder, OnlyAreaLightsShineFromShapes) {
@@ -144,7 +148,8 @@ TEST(Builder, OnlyAreaLightsShineFromShapes) {
 TEST(Builder, ProjectionsAreNoTransformsOfTheWorld) {
   for (const char* name : {"Transform", "ConcatTransform"}) {
     const std::string keyword(name);
-    EXPECT_TRUE(contains(failure(world(keyword + " [1 0 0 0.5 0 1 0 0 0 0 1 0 0 0 0 1]")), keyword));
+    EXPECT_TRUE(
+        contains(failure(world(keyword + " [1 0 0 0.5 0 1 0 0 0 0 1 0 0 0 0 1]")), keyword));
     EXPECT_TRUE(contains(failure(world(keyword + " [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 2]")), keyword));
     EXPECT_TRUE(contains(failure(world(keyword + " [1 0 0 0 0 0 0 0 0 0 1 0 0 0 0 1]")), "undone"));
   }
@@ -183,10 +188,10 @@ TEST(Builder, DefaultsFollowTheDialect) {
     BuildOptions options;
     options.dialect = dialect;
     // Of v3's own integrator there is no plug-in yet.
-    const auto scene =
-        test::buildText("SurfaceIntegrator \"whitted\" LookAt 0 0 5 0 0 0 0 1 0\nCamera "
-                        "\"perspective\"\nWorldBegin Shape \"disk\" WorldEnd",
-                        options);
+    const auto scene = test::buildText(
+        "SurfaceIntegrator \"whitted\" LookAt 0 0 5 0 0 0 0 1 0\nCamera "
+        "\"perspective\"\nWorldBegin Shape \"disk\" WorldEnd",
+        options);
     EXPECT_EQ(scene->film().resolution(), resolution);
     EXPECT_EQ(scene->sampler().samplesPerPixel(), samples);
     const Ray ray{Point3(0), 0, Vec3(0, 0, -1), kInfinity, 0};
