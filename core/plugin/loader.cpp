@@ -67,9 +67,10 @@ std::vector<fs::path> PluginLoader::searchPath(const std::string& extra) {
   std::vector<fs::path> path;
   addPaths(path, extra);
   if (const char* environment = std::getenv("PBRT_PLUGIN_PATH")) addPaths(path, environment);
-  std::error_code ignored;
-  const fs::path self = fs::read_symlink("/proc/self/exe", ignored);
-  if (!ignored) path.push_back(self.parent_path().parent_path() / "lib" / "pbrt");
+  // Beside this library, wherever it is installed.
+  Dl_info self{};
+  if (dladdr(reinterpret_cast<const void*>(&kindName), &self) != 0)
+    path.push_back(fs::absolute(self.dli_fname).parent_path() / "pbrt");
   return path;
 }
 

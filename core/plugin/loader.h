@@ -19,8 +19,8 @@ struct LoadedPlugin {
 class PluginLoader {
  public:
   explicit PluginLoader(std::vector<std::filesystem::path> path) : path_(std::move(path)) {}
-  // `extra` (--plugin-path, colon-separated), PBRT_PLUGIN_PATH, then lib/pbrt beside the running
-  // executable's folder.
+  // `extra` (--plugin-path, colon-separated), PBRT_PLUGIN_PATH, then the folder pbrt beside the
+  // core library (lib/pbrt).
   static std::vector<std::filesystem::path> searchPath(const std::string& extra);
 
   // Throws Error: Failure::scene if there is no such plug-in (with "did you mean"), Failure::plugin

@@ -211,7 +211,8 @@ std::string Params::text(const std::string& name, const std::string& fallback,
 
 std::string Params::choice(const std::string& name, std::span<const std::string_view> allowed,
                            std::string_view fallback, std::string_view meaning) {
-  const std::string value = text(name, std::string(fallback), meaning);
+  std::string value =
+      text(name, std::string(fallback), fmt::format("{} ({})", meaning, fmt::join(allowed, ", ")));
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
   const std::vector<std::string> names(allowed.begin(), allowed.end());
   fail(name, fmt::format("cannot be \"{}\" (it is one of {}){}", value, fmt::join(names, ", "),

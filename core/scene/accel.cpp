@@ -61,7 +61,25 @@ void setTransform(RTCGeometry geometry, const Transform& t) {
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m.data());
 }
 
-RTCRay toEmbree(const Ray& r) {
+constexpr float kReach = Accel::kReach;
+
+// Embree may abort at rays that reach farther (or are no numbers); they meet nothing.
+const Ray& traceable(const Ray& r, float reach) {
+  static constexpr Ray nothing{{}, 1, {0, 0, 1}, 0};  // an empty range of t
+  const Vec3 far = glm::abs(r.o) + glm::abs(r.d);
+  return far.x < reach && far.y < reach && far.z < reach ? r : nothing;
+}
+
+// How far from the origin a ray may be so that it can still be traced within an instance.
+float reachOf(const Transform& toScene) {
+  const glm::dmat4& m = toScene.inverseMatrix();
+  const double stretch = std::sqrt(lengthSquared(DVec3(m[0])) + lengthSquared(DVec3(m[1])) +
+                                   lengthSquared(DVec3(m[2])));
+  return static_cast<float>((kReach - glm::length(DVec3(m[3]))) / std::max(1.0, stretch));
+}
+
+RTCRay toEmbree(const Ray& ray, float reach) {
+  const Ray& r = traceable(ray, reach);
   RTCRay e;
   e.org_x = r.o.x, e.org_y = r.o.y, e.org_z = r.o.z;
   e.dir_x = r.d.x, e.dir_y = r.d.y, e.dir_z = r.d.z;
@@ -71,18 +89,20 @@ RTCRay toEmbree(const Ray& r) {
 }
 
 template <class Ray16>
-void setLane(Ray16& e, int i, const Ray& r) {
+void setLane(Ray16& e, int i, const Ray& ray, float reach) {
+  const Ray& r = traceable(ray, reach);
   e.org_x[i] = r.o.x, e.org_y[i] = r.o.y, e.org_z[i] = r.o.z;
   e.dir_x[i] = r.d.x, e.dir_y[i] = r.d.y, e.dir_z[i] = r.d.z;
   e.tnear[i] = r.tMin, e.tfar[i] = r.tMax;
   e.time[i] = 0, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
 }
 
-// Embree leaves out, without a word, what reaches farther than 1.8e18.
-void checkReach(const Bounds3& b) {
-  const Bounds3 all{Point3(-1e18F), Point3(1e18F)};
+// Embree leaves out, without a word, what reaches farther.
+void checkReach(const Bounds3& b, float reach, std::string_view what) {
+  const Bounds3 all{Point3(-reach), Point3(reach)};
   if (!b.empty() && !(all.contains(b.lo) && all.contains(b.hi)))
-    throw Error("the shape reaches farther than 1e18 from the camera, too far for the ray tracer");
+    throw Error(fmt::format("{} farther than {:.0e} from the camera, too far for the ray tracer",
+                            what, reach));
 }
 
 }  // namespace
@@ -156,7 +176,7 @@ Accel::~Accel() {
 void Accel::add(TriangleMesh& mesh) {
   Bounds3 bounds;
   for (const Point3& p : mesh.positions) bounds.add(p);
-  checkReach(bounds);
+  checkReach(bounds, kReach, "the shape reaches");
   mesh.positions.reserve(mesh.positions.size() + 1);
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
@@ -171,7 +191,7 @@ void Accel::add(TriangleMesh& mesh) {
 
 void Accel::add(const Shape& shape, const Transform& toScene) {
   for (std::uint32_t i = 0; i < shape.primitives(); ++i)
-    checkReach(toScene.bounds(shape.bounds(i)));
+    checkReach(toScene.bounds(shape.bounds(i)), kReach, "the shape reaches");
   users_.push_back(
       std::make_unique<UserGeometry>(UserGeometry{&shape, toScene.inverse(), toScene}));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_USER);
@@ -187,6 +207,7 @@ void Accel::add(const Shape& shape, const Transform& toScene) {
 }
 
 void Accel::add(const Accel& instance, const Transform& toScene) {
+  reach_ = std::min(reach_, std::min(instance.reach_, reachOf(toScene)));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(g, scene(instance.scene_));
   setTransform(g, toScene);
@@ -199,6 +220,7 @@ void Accel::add(const Accel& instance, const Transform& toScene) {
 void Accel::build() {
   rtcCommitScene(scene(scene_));
   check(device(device_), "building the ray tree");
+  checkReach(bounds(), reach_, "with an object instance that small, the scene must not reach");
 }
 
 Bounds3 Accel::bounds() const {
@@ -210,7 +232,7 @@ Bounds3 Accel::bounds() const {
 Hit Accel::intersect(const Ray& ray) const {
   ++rayCount;
   RTCRayHit e;
-  e.ray = toEmbree(ray);
+  e.ray = toEmbree(ray, reach_);
   e.hit.geomID = e.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   Query query(false);
 #if RTC_VERSION_MAJOR >= 4
@@ -224,7 +246,7 @@ Hit Accel::intersect(const Ray& ray) const {
 
 bool Accel::occluded(const Ray& ray) const {
   ++rayCount;
-  RTCRay e = toEmbree(ray);
+  RTCRay e = toEmbree(ray, reach_);
   Query query(false);
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded1(scene(scene_), &e, &query.occluded);
@@ -241,7 +263,7 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
   alignas(64) RTCRayHit16 e;
   for (int i = 0; i < World::kBatch; ++i) {
     valid[i] = i < n ? -1 : 0;
-    if (i < n) setLane(e.ray, i, *rays[i]);
+    if (i < n) setLane(e.ray, i, *rays[i], reach_);
     e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   Query query(true);
@@ -265,13 +287,14 @@ std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
     return mask;
   }
   rayCount += rays.size();
-  Query query(true);
+  // Not marked coherent: Embree 3 then never returns for some packets that look all ways.
+  Query query(false);
   if (n <= 8) {
     alignas(32) std::array<int, 8> valid{};
     alignas(32) RTCRay8 e;
     for (int i = 0; i < n; ++i) {
       valid[i] = -1;
-      setLane(e, i, rays[i]);
+      setLane(e, i, rays[i], reach_);
     }
 #if RTC_VERSION_MAJOR >= 4
     rtcOccluded8(valid.data(), scene(scene_), &e, &query.occluded);
@@ -285,7 +308,7 @@ std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
   alignas(64) RTCRay16 e;
   for (int i = 0; i < n; ++i) {
     valid[i] = -1;
-    setLane(e, i, rays[i]);
+    setLane(e, i, rays[i], reach_);
   }
 #if RTC_VERSION_MAJOR >= 4
   rtcOccluded16(valid.data(), scene(scene_), &e, &query.occluded);

@@ -30,6 +30,9 @@ class AccelDevice {
 // lack of memory above all.
 class Accel {
  public:
+  // Farther out than this nothing is traced; Embree's own limit is 1.8e18.
+  static constexpr float kReach = 1e18F;
+
   explicit Accel(const AccelDevice& device);
   ~Accel();
   Accel(const Accel&) = delete;
@@ -58,6 +61,7 @@ class Accel {
   void* device_;
   void* scene_;
   std::uint32_t count_ = 0;
+  float reach_ = kReach;  // rays farther out meet nothing; instances that shrink bring it nearer
   std::vector<std::unique_ptr<UserGeometry>> users_;
 };
 

@@ -72,7 +72,8 @@ TEST(SpecularRay, DifferentialsAreThoseOfRealNeighbours) {
         std::string("Scale 2 2 2 Shape \"sphere\""),
         std::string("Scale 20 20 20 Shape \"sphere\" \"float radius\" 0.1"),
         std::string("Scale 2 3 1.5 Shape \"sphere\""),
-        std::string("ObjectBegin \"o\" Scale 4 4 4 Shape \"sphere\" ObjectEnd Scale 0.5 0.5 0.5 "
+        std::string("TransformBegin Identity ObjectBegin \"o\" Scale 4 4 4 Shape "
+                    "\"sphere\" ObjectEnd TransformEnd Scale 0.5 0.5 0.5 "
                     "ObjectInstance \"o\"")}) {
     const auto scene = test::buildText(
         "SurfaceIntegrator \"whitted\" WorldBegin Material \"glass\"\n"

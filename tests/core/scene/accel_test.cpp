@@ -53,7 +53,6 @@ TEST(Accel, BatchesOfEverySizeEqualSingleRays) {
       EXPECT_NEAR(found[i].t, one.t, 1e-5F * one.t);
       EXPECT_EQ(found[i].geometry, one.geometry);
       EXPECT_EQ(found[i].instance, one.instance);
-      EXPECT_EQ(found[i].primitive, one.primitive);
       EXPECT_LE(one.t, batch[i].tMax);
     }
   }

@@ -11,8 +11,9 @@ std::string world(const std::string& statements, const std::string& options = ""
   return "LookAt 0 0 5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 0.001\n"
          "Film \"image\" \"integer xresolution\" 1 \"integer yresolution\" 1\n"
          "Sampler \"random\" \"integer pixelsamples\" 1\nIntegrator \"whitted\"\n" +
-         options + "\nWorldBegin\nLightSource \"distant\" \"point from\" [0 0 1]\n" + statements +
-         "\nWorldEnd\n";
+         options +
+         "\nWorldBegin\nLightSource \"distant\" \"point from\" [0 0 1] \"point to\" [0 0 0]\n" +
+         statements + "\nWorldEnd\n";
 }
 
 // The colour of the pixel that looks at the origin, over that of a white surface.

@@ -52,8 +52,13 @@ TEST(Mesh, ARayFromAHitDoesNotMeetItsOwnPlaneAgain) {
   // Two triangles of one plane side by side: neither the one that was hit nor its neighbour.
   const AccelDevice device(1);
   int rays = 0, again = 0;
-  forTriangles(4000, [&](const TriangleMesh& one, Rng& rng) {
+  forTriangles(16000, [&](const TriangleMesh& one, Rng& rng) {
     const Point3 a = one.positions[0], b = one.positions[1], c = one.positions[2];
+    // Of a needle the ray tracer knows the plane too badly; so it does of a few units in the last
+    // place.
+    const float edge = std::max(glm::length(b - a), glm::length(c - a));
+    const float height = glm::length(glm::cross(b - a, c - a)) / edge;
+    if (height < 0.1F * edge || height < 1e-3F * glm::length(a)) return;
     TriangleMesh mesh = one;
     mesh.positions.push_back(b + c - a);
     mesh.indices.insert(mesh.indices.end(), {2, 1, 3});

@@ -215,6 +215,37 @@ INSTANTIATE_TEST_SUITE_P(Planes, Acne,
                                          "Rotate -90 1 0 0 Shape \"disk\" \"float radius\" 9"),
                          [](const auto& test) { return test.index == 0 ? "Mesh" : "Disk"; });
 
+TEST(Scene, RaysOutOfReachMeetNothing) {
+  const auto scene = test::buildText("WorldBegin Shape \"sphere\" WorldEnd");
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const Ray good{{0, 0, -5}, 0, {0, 0, 1}};
+  const std::array<Ray, 4> rays{{{{3e38F, 0, 0}, 0, {-1, 0, 0}},
+                                 {{0, 0, -5}, 0, {0, 0, 3e38F}},
+                                 {{0, 0, nan}, 0, {0, 0, 1}},
+                                 good}};
+  std::array<const Ray*, 4> pointers{};
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    pointers[i] = &rays[i];
+    EXPECT_EQ(scene->intersect(rays[i]).found(), i == 3);
+    EXPECT_EQ(scene->occluded(rays[i]), i == 3);
+  }
+  std::array<Hit, 4> hits;
+  scene->intersect(pointers, hits);
+  for (std::size_t i = 0; i < rays.size(); ++i) EXPECT_EQ(hits[i].found(), i == 3);
+  EXPECT_EQ(scene->occluded(rays), 1U << 3);
+}
+
+TEST(Scene, AnInstanceTooSmallToTraceIsRefused) {
+  const auto instance = [](const std::string& scale) {
+    return test::buildText(
+        "WorldBegin ObjectBegin \"o\" Shape \"sphere\" ObjectEnd Shape \"disk\"\n"
+        "Scale " +
+        scale + " ObjectInstance \"o\" WorldEnd");
+  };
+  EXPECT_NO_THROW(instance("1e-6 1e-6 1e-6"));
+  EXPECT_THROW(instance("1e-25 1e-25 1e-25"), Error);
+}
+
 TEST(Scene, OpensExactlyThePluginsThatItNames) {
   PluginLoader plugins({PBRT_BUILD_DIR "/lib/pbrt"});
   test::buildText(
