@@ -207,6 +207,7 @@ void Accel::add(const Shape& shape, const Transform& toScene) {
 }
 
 void Accel::add(const Accel& instance, const Transform& toScene) {
+  coherent_ = false;
   reach_ = std::min(reach_, std::min(instance.reach_, reachOf(toScene)));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(g, scene(instance.scene_));
@@ -266,7 +267,7 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
     if (i < n) setLane(e.ray, i, *rays[i], reach_);
     e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  Query query(true);
+  Query query(coherent_);
 #if RTC_VERSION_MAJOR >= 4
   rtcIntersect16(valid.data(), scene(scene_), &e, &query.intersect);
 #else
@@ -287,8 +288,7 @@ std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
     return mask;
   }
   rayCount += rays.size();
-  // Not marked coherent: Embree 3 then never returns for some packets that look all ways.
-  Query query(false);
+  Query query(coherent_);
   if (n <= 8) {
     alignas(32) std::array<int, 8> valid{};
     alignas(32) RTCRay8 e;

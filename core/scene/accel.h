@@ -62,6 +62,9 @@ class Accel {
   void* scene_;
   std::uint32_t count_ = 0;
   float reach_ = kReach;  // rays farther out meet nothing; instances that shrink bring it nearer
+  // Whether packets may be marked as coherent, which is faster. Embree 3 then never returns for
+  // some packets that look all ways through instances.
+  bool coherent_ = true;
   std::vector<std::unique_ptr<UserGeometry>> users_;
 };
 

@@ -9,18 +9,22 @@
 namespace pbrt {
 namespace {
 
-std::unique_ptr<Scene> everything() {
-  return test::buildText(R"(SurfaceIntegrator "whitted" WorldBegin
+// Packets are traced another way where there are no instances.
+std::unique_ptr<Scene> everything(bool instances = true) {
+  const std::string text = R"(SurfaceIntegrator "whitted" WorldBegin
     Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
       "point P" [-2 -1 -2  -2 -1 2  2 -1 2  2 -1 -2]
     Shape "sphere" "float radius" 0.5
     TransformBegin Translate 1 0 0 Scale 1 0.4 -0.7 Shape "disk" TransformEnd
+    Shape "metaballs" "point P" [-1 1 0  -0.4 1.2 0.1]
     ObjectBegin "o" Shape "sphere" "float radius" 0.4
       Shape "trianglemesh" "point P" [0 0 0  1 0 0  0 1 1]
       Shape "metaballs" "point P" [-1 0 0  -0.4 0.2 0.1] ObjectEnd
-    Translate 0 1 0 Rotate 30 1 2 3 ObjectInstance "o"
+    )";
+  const std::string placed = R"(Translate 0 1 0 Rotate 30 1 2 3 ObjectInstance "o"
     Translate -1 0 1 Scale 1 2 0.5 ObjectInstance "o"
-    WorldEnd)");
+    )";
+  return test::buildText(text + (instances ? placed : "") + "WorldEnd");
 }
 
 Ray randomRay(Rng& rng) {
@@ -29,8 +33,10 @@ Ray randomRay(Rng& rng) {
   return {o, 0, to - o, rng.uniform() < 0.3F ? rng.uniform() : kInfinity, 0};
 }
 
-TEST(Accel, BatchesOfEverySizeEqualSingleRays) {
-  const auto scene = everything();
+class Batches : public testing::TestWithParam<bool> {};
+
+TEST_P(Batches, OfEverySizeEqualSingleRays) {
+  const auto scene = everything(GetParam());
   Rng rng(2);
   int hits = 0, rays = 0;
   for (int round = 0; round < 6000; ++round) {
@@ -58,6 +64,8 @@ TEST(Accel, BatchesOfEverySizeEqualSingleRays) {
   }
   EXPECT_GT(hits, rays / 4);
 }
+
+INSTANTIATE_TEST_SUITE_P(Instances, Batches, testing::Bool());
 
 TEST(Accel, SurfacesLieWhereTheirHitsAre) {
   const auto scene = everything();
