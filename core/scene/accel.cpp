@@ -15,26 +15,59 @@ namespace pbrt {
 
 namespace {
 
-// Embree 4 took the context out of the calls and put optional arguments in.
+// One call into Embree. Version 4 took the context out of the calls and put optional arguments in.
+class Query {
+ public:
 #if RTC_VERSION_MAJOR >= 4
-struct Query {
-  RTCIntersectArguments intersect;
-  RTCOccludedArguments occluded;
-  explicit Query(bool coherent) {
-    rtcInitIntersectArguments(&intersect);
-    rtcInitOccludedArguments(&occluded);
-    if (coherent) intersect.flags = occluded.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  explicit Query(bool coherent = false) {
+    rtcInitIntersectArguments(&intersect_);
+    rtcInitOccludedArguments(&occluded_);
+    if (coherent) intersect_.flags = occluded_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   }
-};
+  void intersect(RTCScene s, RTCRayHit& e) {
+    rtcIntersect1(s, &e, &intersect_);
+  }
+  void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
+    rtcIntersect16(valid, s, &e, &intersect_);
+  }
+  void occluded(RTCScene s, RTCRay& e) {
+    rtcOccluded1(s, &e, &occluded_);
+  }
+  void occluded(const int* valid, RTCScene s, RTCRay8& e) {
+    rtcOccluded8(valid, s, &e, &occluded_);
+  }
+  void occluded(const int* valid, RTCScene s, RTCRay16& e) {
+    rtcOccluded16(valid, s, &e, &occluded_);
+  }
+
+ private:
+  RTCIntersectArguments intersect_;
+  RTCOccludedArguments occluded_;
 #else
-struct Query {
-  RTCIntersectContext context;
-  explicit Query(bool coherent) {
-    rtcInitIntersectContext(&context);
-    if (coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  explicit Query(bool coherent = false) {
+    rtcInitIntersectContext(&context_);
+    if (coherent) context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   }
-};
+  void intersect(RTCScene s, RTCRayHit& e) {
+    rtcIntersect1(s, &context_, &e);
+  }
+  void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
+    rtcIntersect16(valid, s, &context_, &e);
+  }
+  void occluded(RTCScene s, RTCRay& e) {
+    rtcOccluded1(s, &context_, &e);
+  }
+  void occluded(const int* valid, RTCScene s, RTCRay8& e) {
+    rtcOccluded8(valid, s, &context_, &e);
+  }
+  void occluded(const int* valid, RTCScene s, RTCRay16& e) {
+    rtcOccluded16(valid, s, &context_, &e);
+  }
+
+ private:
+  RTCIntersectContext context_;
 #endif
+};
 
 thread_local std::uint64_t rayCount __attribute__((tls_model("initial-exec"))) = 0;
 
@@ -235,12 +268,7 @@ Hit Accel::intersect(const Ray& ray) const {
   RTCRayHit e;
   e.ray = toEmbree(ray, reach_);
   e.hit.geomID = e.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  Query query(false);
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect1(scene(scene_), &e, &query.intersect);
-#else
-  rtcIntersect1(scene(scene_), &query.context, &e);
-#endif
+  Query().intersect(scene(scene_), e);
   if (e.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {e.ray.tfar, e.hit.u, e.hit.v, e.hit.primID, e.hit.geomID, e.hit.instID[0]};
 }
@@ -248,12 +276,7 @@ Hit Accel::intersect(const Ray& ray) const {
 bool Accel::occluded(const Ray& ray) const {
   ++rayCount;
   RTCRay e = toEmbree(ray, reach_);
-  Query query(false);
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded1(scene(scene_), &e, &query.occluded);
-#else
-  rtcOccluded1(scene(scene_), &query.context, &e);
-#endif
+  Query().occluded(scene(scene_), e);
   return e.tfar < 0;
 }
 
@@ -267,12 +290,7 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
     if (i < n) setLane(e.ray, i, *rays[i], reach_);
     e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  Query query(coherent_);
-#if RTC_VERSION_MAJOR >= 4
-  rtcIntersect16(valid.data(), scene(scene_), &e, &query.intersect);
-#else
-  rtcIntersect16(valid.data(), scene(scene_), &query.context, &e);
-#endif
+  Query(coherent_).intersect(valid.data(), scene(scene_), e);
   for (int i = 0; i < n; ++i)
     hits[i] = e.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                   ? Hit{}
@@ -280,42 +298,28 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
                         e.hit.primID[i], e.hit.geomID[i], e.hit.instID[0][i]};
 }
 
-std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
-  const int n = static_cast<int>(rays.size());
-  std::uint32_t mask = 0;
-  if (n < 3) {
-    for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(occluded(rays[i])) << i;
-    return mask;
-  }
+template <class Packet>
+std::uint32_t Accel::occludedPacket(std::span<const Ray> rays) const {
   rayCount += rays.size();
-  Query query(coherent_);
-  if (n <= 8) {
-    alignas(32) std::array<int, 8> valid{};
-    alignas(32) RTCRay8 e;
-    for (int i = 0; i < n; ++i) {
-      valid[i] = -1;
-      setLane(e, i, rays[i], reach_);
-    }
-#if RTC_VERSION_MAJOR >= 4
-    rtcOccluded8(valid.data(), scene(scene_), &e, &query.occluded);
-#else
-    rtcOccluded8(valid.data(), scene(scene_), &query.context, &e);
-#endif
-    for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(e.tfar[i] < 0) << i;
-    return mask;
-  }
-  alignas(64) std::array<int, World::kBatch> valid{};
-  alignas(64) RTCRay16 e;
+  alignas(64) Packet e;
+  alignas(64) std::array<int, std::extent_v<decltype(e.org_x)>> valid{};
+  const int n = static_cast<int>(rays.size());
   for (int i = 0; i < n; ++i) {
     valid[i] = -1;
     setLane(e, i, rays[i], reach_);
   }
-#if RTC_VERSION_MAJOR >= 4
-  rtcOccluded16(valid.data(), scene(scene_), &e, &query.occluded);
-#else
-  rtcOccluded16(valid.data(), scene(scene_), &query.context, &e);
-#endif
+  Query(coherent_).occluded(valid.data(), scene(scene_), e);
+  std::uint32_t mask = 0;
   for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(e.tfar[i] < 0) << i;
+  return mask;
+}
+
+std::uint32_t Accel::occluded(std::span<const Ray> rays) const {
+  if (rays.size() > 8) return occludedPacket<RTCRay16>(rays);
+  if (rays.size() > 2) return occludedPacket<RTCRay8>(rays);
+  std::uint32_t mask = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    mask |= static_cast<std::uint32_t>(occluded(rays[i])) << i;
   return mask;
 }
 

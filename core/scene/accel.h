@@ -58,6 +58,9 @@ class Accel {
  private:
   struct UserGeometry;
 
+  template <class Packet>
+  std::uint32_t occludedPacket(std::span<const Ray> rays) const;
+
   void* device_;
   void* scene_;
   std::uint32_t count_ = 0;
