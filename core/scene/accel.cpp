@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/scene/placement.h"
 
 namespace pbrt {
 
@@ -105,10 +106,9 @@ const Ray& traceable(const Ray& r, float reach) {
 
 // How far from the origin a ray may be so that it can still be traced within an instance.
 float reachOf(const Transform& toScene) {
-  const glm::dmat4& m = toScene.inverseMatrix();
-  const double stretch = std::sqrt(lengthSquared(DVec3(m[0])) + lengthSquared(DVec3(m[1])) +
-                                   lengthSquared(DVec3(m[2])));
-  return static_cast<float>((kReach - glm::length(DVec3(m[3]))) / std::max(1.0, stretch));
+  const Transform toInstance = toScene.inverse();
+  const double shift = glm::length(DVec3(toInstance.matrix()[3]));
+  return static_cast<float>((kReach - shift) / std::max(1.0, stretch(toInstance)));
 }
 
 RTCRay toEmbree(const Ray& ray, float reach) {

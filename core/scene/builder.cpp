@@ -145,12 +145,10 @@ bool SceneBuilder::handleAttribute(Directive& d) {
     }
     case NamedMaterial: {
       const auto found = attributes_.namedMaterials->find(d.words.at(0));
-      if (found == attributes_.namedMaterials->end()) {
-        std::vector<std::string> names;
-        for (const auto& entry : *attributes_.namedMaterials) names.push_back(entry.first);
-        throw Error(d.wordsWhere.at(0), fmt::format("there is no named material \"{}\"{}",
-                                                    d.words[0], didYouMean(d.words[0], names)));
-      }
+      if (found == attributes_.namedMaterials->end())
+        throw Error(d.wordsWhere.at(0),
+                    fmt::format("there is no named material \"{}\"{}", d.words[0],
+                                didYouMeanKey(d.words[0], *attributes_.namedMaterials)));
       attributes_.material = found->second;
       return true;
     }

@@ -74,8 +74,7 @@ void SceneBuilder::makeCameraAndFilm() {
   }
 
   const Directive& camera = option(camera_, DirectiveKind::Camera, defaults_.camera);
-  const DPoint3 eye = cameraFromWorld_.inverse().point(DPoint3(0));
-  const Transform renderFromCamera = Transform::translate(-eye) * cameraFromWorld_.inverse();
+  const Transform renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
   scene_->ownCamera_ = factory_.make<Camera>(camera.words.at(0), camera.params, camera.where,
                                              {renderFromCamera, resolution});
   scene_->camera_ = scene_->ownCamera_.get();
@@ -108,14 +107,14 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
     scene.root_.accel.add(instance.group->accel, instance.toRender);
   scene.root_.accel.build();
   scene.bounds_ = scene.root_.accel.bounds();
-  for (const auto& light : scene.ownLights_) scene.lights_.push_back(light.get());
+  const auto addLight = [&](Light& light) {
+    light.prepare(scene.bounds_);
+    scene.lights_.push_back(&light);
+    if (light.isInfinite()) scene.infiniteLights_.push_back(&light);
+  };
+  for (const auto& light : scene.ownLights_) addLight(*light);
   for (const auto& g : scene.root_.geometries)
-    if (g->light) scene.lights_.push_back(g->light.get());
-  for (const auto& light : scene.ownLights_) light->prepare(scene.bounds_);
-  for (const auto& g : scene.root_.geometries)
-    if (g->light) g->light->prepare(scene.bounds_);
-  for (const Light* light : scene.lights_)
-    if (light->isInfinite()) scene.infiniteLights_.push_back(light);
+    if (g->light) addLight(*g->light);
 
   if (scene.bounds_.empty()) note({}, "the scene has no shapes: the picture is empty");
   if (scene.lights_.empty()) note({}, "the scene has no lights: the picture is black");

@@ -16,9 +16,9 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
                             const Transform& toGroup, Group& group) {
   auto g = std::make_unique<Geometry>();
 
-  const auto opened = factory_.open(PluginKind::shape, d.words.at(0), d.where);
-  Params params = factory_.params(opened, d.where, {&d.params});
-  g->shape = create<Shape>(*opened.plugin, params, {});
+  const PluginInfo& plugin = factory_.open(PluginKind::shape, d.words.at(0), d.where);
+  Params params = factory_.params(plugin, d.where, {&d.params});
+  g->shape = create<Shape>(plugin, params, {});
   // What the shape does not know may be meant for its material.
   if (const auto unread = params.unread(); unread.empty()) {
     g->material = attributes.material->shared(factory_, attributes.textures);
@@ -78,12 +78,9 @@ void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
 void SceneBuilder::addInstance(const Directive& d) {
   if (openObject_) throw Error(d.where, "ObjectInstance inside an object");
   const auto found = objects_.find(d.words.at(0));
-  if (found == objects_.end()) {
-    std::vector<std::string> names;
-    for (const auto& entry : objects_) names.push_back(entry.first);
+  if (found == objects_.end())
     throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", d.words[0],
-                                                didYouMean(d.words[0], names)));
-  }
+                                                didYouMeanKey(d.words[0], objects_)));
   Object& object = found->second;
   if (!object.built) {
     auto group = std::make_unique<Group>(scene_->device_);

@@ -64,12 +64,9 @@ bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& 
       return true;
     case CoordSysTransform: {
       const auto found = named_.find(d.words.at(0));
-      if (found == named_.end()) {
-        std::vector<std::string> names;
-        for (const auto& entry : named_) names.push_back(entry.first);
+      if (found == named_.end())
         throw Error(d.wordsWhere.at(0), fmt::format("there is no coordinate system \"{}\"{}",
-                                                    d.words[0], didYouMean(d.words[0], names)));
-      }
+                                                    d.words[0], didYouMeanKey(d.words[0], named_)));
       set(found->second, d);
       return true;
     }

@@ -77,12 +77,8 @@ class MeshSampler final : public AreaSampler {
     return s;
   }
 
-  // dA = d^2 dw / |cos|: uniform density over the area, seen from a distance.
   float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
-    const DVec3 d = p - from;
-    const double distance2 = lengthSquared(d);
-    const double projected = std::abs(glm::dot(DVec3(n), d)) * area();
-    return projected > 0 ? static_cast<float>(distance2 * std::sqrt(distance2) / projected) : 0;
+    return uniformAreaPdf(from, p, n, area());
   }
 
   bool mayHit(const DPoint3& from, const DVec3& w) const override {

@@ -4,13 +4,6 @@ namespace pbrt {
 
 namespace {
 
-// How much a map can stretch an error: the norm of its linear part, bounded by Frobenius'.
-double stretch(const Transform& t) {
-  const glm::dmat4& m = t.matrix();
-  return std::sqrt(lengthSquared(DVec3(m[0])) + lengthSquared(DVec3(m[1])) +
-                   lengthSquared(DVec3(m[2])));
-}
-
 // Whether the linear part only turns, mirrors and scales alike in all directions: then its columns
 // are as long as each other and at right angles.
 bool isSimilar(const Transform& t) {
@@ -105,6 +98,12 @@ class PlacedSampler final : public AreaSampler {
 };
 
 }  // namespace
+
+double stretch(const Transform& t) {
+  const glm::dmat4& m = t.matrix();
+  return std::sqrt(lengthSquared(DVec3(m[0])) + lengthSquared(DVec3(m[1])) +
+                   lengthSquared(DVec3(m[2])));
+}
 
 SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, bool reverse,
                                  const Ray& ray, const ShapeHit& hit) {

@@ -7,6 +7,9 @@
 
 namespace pbrt {
 
+// How much a map can stretch an error: the norm of its linear part, bounded by Frobenius'.
+double stretch(const Transform& t);
+
 // The point that a hit of a render-space ray names; `reverse` turns the normals. Everything that
 // depends on space is set.
 SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, bool reverse,

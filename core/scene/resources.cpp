@@ -12,7 +12,7 @@ std::string shown(std::string_view name) {
 
 }  // namespace
 
-Factory::Opened Factory::open(PluginKind kind, const std::string& name, const Location& where) {
+const PluginInfo& Factory::open(PluginKind kind, const std::string& name, const Location& where) {
   try {
     const Alias* alias = findAlias(kind, name);
     const bool own = !alias || [&] {  // a plug-in of that very name goes before its stand-in
@@ -20,28 +20,27 @@ Factory::Opened Factory::open(PluginKind kind, const std::string& name, const Lo
       const auto names = loader_.available(kind);
       return std::find(names.begin(), names.end(), name) != names.end();
     }();
-    if (own) return {&loader_.open(kind, name), kind};
+    if (own) return loader_.open(kind, name);
     if (!alias->exact && !substituted_[{kind, name}]) {
       substituted_[{kind, name}] = true;
       report(Severity::warning, where,
              fmt::format("there is no {} \"{}\" yet; \"{}\" takes its place", kindName(kind), name,
                          alias->target));
     }
-    return {&loader_.open(kind, std::string(alias->target)), kind};
+    return loader_.open(kind, std::string(alias->target));
   } catch (const Error& error) {
     throw error.at(where);
   }
 }
 
-Params Factory::params(const Opened& opened, const Location& where,
+Params Factory::params(const PluginInfo& plugin, const Location& where,
                        std::vector<const ParamList*> lists, TextureLibrary* textures) const {
-  const std::string name = opened.plugin->name;
-  return {fmt::format("{}/{}", kindFolder(opened.kind), name),
+  return {fmt::format("{}/{}", kindFolder(plugin.kind), plugin.name),
           where,
           std::move(lists),
           textures,
           report_,
-          &parameterDefaults(dialect_, opened.kind, name)};
+          &parameterDefaults(dialect_, plugin.kind, plugin.name)};
 }
 
 TextureScope::TextureScope(const std::shared_ptr<TextureScope>& outer, const std::string& name,
@@ -63,10 +62,8 @@ std::shared_ptr<const Texture<T>> TextureScope::find(const std::string& name, En
       throw Error(fmt::format("texture \"{}\" is a {} texture, but a {} texture is needed",
                               shown(name), isFloat ? "color" : "float",
                               isFloat ? "float" : "color"));
-    std::vector<std::string> names;
-    for (const auto& entry : entries) names.push_back(entry.first);
     throw Error(fmt::format("there is no {} texture \"{}\"{}", isFloat ? "float" : "color",
-                            shown(name), didYouMean(name, names)));
+                            shown(name), didYouMeanKey(name, entries)));
   }
   Entry<T>& entry = *found->second;
   if (!entry.built) {
@@ -92,9 +89,9 @@ std::shared_ptr<const Material> MaterialDefinition::shared(
 std::shared_ptr<const Material> MaterialDefinition::overridden(Factory& factory,
                                                                TextureScope& scope,
                                                                ParamList& overrides) {
-  const auto opened = factory.open(PluginKind::material, plugin_, where_);
-  Params params = factory.params(opened, where_, {&overrides, &params_}, &scope);
-  std::shared_ptr<const Material> material = create<Material>(*opened.plugin, params, {});
+  const PluginInfo& plugin = factory.open(PluginKind::material, plugin_, where_);
+  Params params = factory.params(plugin, where_, {&overrides, &params_}, &scope);
+  std::shared_ptr<const Material> material = create<Material>(plugin, params, {});
   params.refuseUnread(1);
   ParamList left;
   for (const Param* unread : params.unread(0)) left.push_back(*unread);

@@ -10,6 +10,14 @@
 
 namespace pbrt {
 
+// `; did you mean "..."?` over the keys of a map, or nothing.
+template <class Map>
+std::string didYouMeanKey(std::string_view name, const Map& map) {
+  std::vector<std::string> names;
+  for (const auto& entry : map) names.push_back(entry.first);
+  return didYouMean(name, names);
+}
+
 // Makes objects of plug-ins for a scene: finds them by the names its dialect knows, gives them its
 // defaults, and refuses parameters that they do not read.
 class Factory {
@@ -22,20 +30,16 @@ class Factory {
                                   const Location& where,
                                   const typename Interface::Setup& setup = {},
                                   TextureLibrary* textures = nullptr) {
-    Opened opened = open(kindOf<Interface>, name, where);
-    Params reader = this->params(opened, where, {&params}, textures);
-    auto object = create<Interface>(*opened.plugin, reader, setup);
+    const PluginInfo& plugin = open(kindOf<Interface>, name, where);
+    Params reader = this->params(plugin, where, {&params}, textures);
+    auto object = create<Interface>(plugin, reader, setup);
     reader.refuseUnread();
     return object;
   }
 
-  struct Opened {
-    const PluginInfo* plugin;
-    PluginKind kind;
-  };
-  Opened open(PluginKind kind, const std::string& name, const Location& where);
-  Params params(const Opened& opened, const Location& where, std::vector<const ParamList*> lists,
-                TextureLibrary* textures = nullptr) const;
+  const PluginInfo& open(PluginKind kind, const std::string& name, const Location& where);
+  Params params(const PluginInfo& plugin, const Location& where,
+                std::vector<const ParamList*> lists, TextureLibrary* textures = nullptr) const;
 
   PluginLoader& loader() { return loader_; }
   Dialect dialect() const { return dialect_; }
