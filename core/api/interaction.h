@@ -1,6 +1,8 @@
 #pragma once
 // A point where a ray meets a surface, and how rays leave it.
 
+#include <cstdint>
+
 #include "core/base/frame.h"
 #include "core/base/spectrum.h"
 #include "core/base/transform.h"
@@ -9,6 +11,14 @@ namespace pbrt {
 
 class Light;
 class Material;
+
+// The colours that a shape itself brings along, for textures to ask for.
+class SurfaceColor {
+ public:
+  virtual ~SurfaceColor();
+  // At the point p of the surface, in the shape's object space, within the primitive.
+  virtual Spectrum at(const DPoint3& p, std::uint32_t primitive) const = 0;
+};
 
 // The point of a shape that a hit names, in the shape's object space.
 struct SurfacePoint {
@@ -38,6 +48,10 @@ struct SurfaceInteraction {
   float time = 0;
   const Material* material = nullptr;  // null: nothing to shade
   const Light* light = nullptr;        // the area light that the surface is, or null
+  // The shape's own colours, or null, and what they ask for: worked out only if a texture does.
+  const SurfaceColor* color = nullptr;
+  DPoint3 objectP{};
+  std::uint32_t primitive = 0;
 
   Frame frame() const { return Frame::fromZX(ns, tangent); }
 };

@@ -14,6 +14,7 @@ namespace pbrt {
 
 Shape::~Shape() = default;
 MeshShape::~MeshShape() = default;
+SurfaceColor::~SurfaceColor() = default;
 Light::~Light() = default;
 Camera::~Camera() = default;
 Filter::~Filter() = default;

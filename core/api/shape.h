@@ -76,7 +76,8 @@ class Shape {
 
   // Abilities; null is "cannot".
   virtual const AreaSampler* areaSampler() const { return nullptr; }  // may be an area light
-  virtual TriangleMesh* triangles() { return nullptr; }  // traced natively; see MeshShape
+  virtual TriangleMesh* triangles() { return nullptr; }          // traced natively; see MeshShape
+  virtual const SurfaceColor* color() const { return nullptr; }  // has colours of its own
 };
 
 // A shape that is nothing but triangles: the scene takes the mesh, and never calls the rest.

@@ -215,6 +215,18 @@ std::string Params::choice(const std::string& name, std::span<const std::string_
                          didYouMean(value, names)));
 }
 
+std::filesystem::path Params::file(const std::string& name, std::string_view meaning) {
+  const std::filesystem::path given = text(name, "", meaning);
+  if (given.empty()) return {};
+  const Source* scene = place(name).source;
+  const auto folder = scene ? std::filesystem::path(scene->name).parent_path() : "";
+  std::filesystem::path path = folder / given;
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown))
+    fail(name, fmt::format("names a file that is not there: {}", path.string()));
+  return path;
+}
+
 Point3 Params::point(const std::string& name, const Point3& fallback, std::string_view meaning) {
   declare(name, "point3", show(fallback), meaning);
   const Param* p = find(name, kVector3, "point3");

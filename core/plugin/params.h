@@ -2,6 +2,7 @@
 // Checked reading of parameters. The reader is the declaration: one call reads, checks, defaults
 // and documents a parameter, so that `pbrt --describe` needs nothing else.
 
+#include <filesystem>
 #include <optional>
 #include <span>
 
@@ -58,6 +59,9 @@ class Params {
   std::string text(const std::string& name, const std::string& fallback, std::string_view meaning);
   std::string choice(const std::string& name, std::span<const std::string_view> allowed,
                      std::string_view fallback, std::string_view meaning);
+  // A file to read: relative to the folder of the scene file that names it, or to the working
+  // directory if the scene is no file. Empty if absent; one that is not there is an error.
+  std::filesystem::path file(const std::string& name, std::string_view meaning);
   Point3 point(const std::string& name, const Point3& fallback, std::string_view meaning);
   Vec3 vector(const std::string& name, const Vec3& fallback, std::string_view meaning);
   Spectrum spectrum(const std::string& name, const Spectrum& fallback, std::string_view meaning);

@@ -123,6 +123,9 @@ SurfaceInteraction placedSurface(const Shape& shape, const Transform& toRender, 
   s.dpdu = Vec3(toRender.vector(DVec3(o.dpdu)));
   s.dpdv = Vec3(toRender.vector(DVec3(o.dpdv)));
   s.tangent = s.dpdu;
+  s.color = shape.color();
+  s.objectP = o.p;
+  s.primitive = hit.primitive;
   return s;
 }
 

@@ -1,5 +1,9 @@
 #include "shapes/metaballs/field.h"
 
+#include <algorithm>
+
+#include "shapes/metaballs/loops.h"
+
 namespace pbrt::metaballs {
 namespace {
 
@@ -8,15 +12,22 @@ struct BoxRange {
   DVec3 steepest{};  // bound on |df/dx|, |df/dy|, |df/dz|
 };
 
+// The smallest interval that holds x and y, added to `sum`.
+void addHull(Interval& sum, double x, double y) {
+  sum.lo += std::min(x, y);
+  sum.hi += std::max(x, y);
+}
+
 // The range of each atom by itself, from its nearest and farthest point of the box.
 //
 // Rounding: near2 and far2 are off by less than 4 epsilon of themselves, q by less than 8; K loses
-// less than 4 epsilon of itself for a power. For the gaussian it is 2 epsilon (K + 2 exp(-b)), and
-// moving q by d changes K by more than d b exp(-b): widening q by 16 epsilon covers that too.
+// less than kRounding epsilon of itself for a power. For the gaussian it is that of K + 2 exp(-b),
+// and moving q by d changes K by more than d b exp(-b): widening q by 64 epsilon covers that too.
 // A sum of n terms loses less than n epsilon of the sum of their absolute values.
 template <class K>
 BoxRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& atoms,
                    AtomList list) {
+  constexpr double widened = 64 * kEpsilon;
   BoxRange range{{-1, -1}};
   double magnitude = 1;
   Interval slope[3];
@@ -25,9 +36,9 @@ BoxRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>
     const Atom& atom = atoms[j];
     const DVec3 a = lo - DPoint3(atom.centre), b = hi - DPoint3(atom.centre);
     const DVec3 near = glm::max(DVec3(0), glm::max(a, -b)), far = glm::max(-a, b);
-    const double inverse2 = sqr(atom.inverseRadius);
-    const double q0 = glm::dot(near, near) * inverse2 * (1 - 16 * kEpsilon) - 16 * kEpsilon;
-    const double q1 = glm::dot(far, far) * inverse2 * (1 + 16 * kEpsilon) + 16 * kEpsilon;
+    const double inverse2 = 1 / (static_cast<double>(atom.radius) * atom.radius);
+    const double q0 = glm::dot(near, near) * inverse2 * (1 - widened) - widened;
+    const double q1 = glm::dot(far, far) * inverse2 * (1 + widened) + widened;
     if (q0 >= 1) continue;
     addHull(range.value, atom.weight * K::value(q0), atom.weight * K::value(q1));
     magnitude += std::abs(atom.weight) * K::value(q0);
@@ -40,7 +51,7 @@ BoxRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>
     }
     slopeMagnitude += std::abs(k0) * far;
   }
-  const double error = (static_cast<double>(list.size()) + 16) * kEpsilon;
+  const double error = (static_cast<double>(list.size()) + 2 * K::kRounding) * kEpsilon;
   range.value.lo -= error * magnitude;
   range.value.hi += error * magnitude;
   for (int i = 0; i < 3; ++i)
@@ -61,40 +72,19 @@ Interval boundAs(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& 
   return {std::max(box.value.lo, centre.lo - swing), std::min(box.value.hi, centre.hi + swing)};
 }
 
-template <class K>
-FieldSample sampleAs(const DPoint3& p, const std::vector<Atom>& atoms, AtomList list) {
-  FieldSample s;
-  s.value = -1;
-  double most = -1;
-  for (const std::uint32_t j : list) {
-    const Atom& atom = atoms[j];
-    const DVec3 r = p - DPoint3(atom.centre);
-    const double inverse2 = sqr(atom.inverseRadius);
-    const double q = glm::dot(r, r) * inverse2;
-    if (q >= 1) continue;
-    const double value = atom.weight * K::value(q);
-    s.value += value;
-    // grad K(q) = K' 2 r / h^2; its Jacobian is K' 2 / h^2 I + K'' 4 r r^T / h^4.
-    const double k1 = 2 * inverse2 * atom.weight * K::slope(q);
-    const double k2 = 4 * sqr(inverse2) * atom.weight * K::curvature(q);
-    s.gradient += k1 * r;
-    s.hessian += glm::dmat3(k1) + k2 * glm::outerProduct(r, r);
-    if (value > most) {
-      most = value;
-      s.strongest = j;
-    }
-  }
-  return s;
-}
-
 }  // namespace
+
+Field::Field(Kernel kernel, std::vector<Atom> atoms)
+    : kernel_(kernel),
+      atoms_(std::move(atoms)),
+      carves_(std::ranges::any_of(atoms_, [](const Atom& a) { return a.weight < 0; })) {}
 
 Interval Field::bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const {
   return withKernel(kernel_, [&]<class K>(K) { return boundAs<K>(lo, hi, atoms_, list); });
 }
 
 FieldSample Field::sample(const DPoint3& p, AtomList list) const {
-  return withKernel(kernel_, [&]<class K>(K) { return sampleAs<K>(p, atoms_, list); });
+  return loops().sample(kernel_, atoms_, p, list);
 }
 
 }  // namespace pbrt::metaballs

@@ -4,99 +4,27 @@
 // that atom's direction is -z, v = 1 at +z, u runs once around z. It jumps where another atom takes
 // over; the surface and its normal do not.
 
-#include <fmt/format.h>
+#include <mutex>
 
-#include "core/plugin/params.h"
 #include "core/plugin/plugin.h"
+#include "shapes/metaballs/area.h"
+#include "shapes/metaballs/input.h"
 #include "shapes/metaballs/roots.h"
 
 namespace pbrt::metaballs {
-namespace {
-
-// One value for all atoms, or one each.
-std::vector<float> perAtom(Params& params, const std::string& name, std::size_t atoms,
-                           std::string_view meaning, std::string_view unit) {
-  std::vector<float> values = params.numbers(name, meaning, unit);
-  if (values.empty()) values = {1};
-  if (values.size() == 1) values.resize(atoms, values[0]);
-  if (values.size() != atoms)
-    params.fail(name, fmt::format("{} values for {} atoms: give one for all, or one for each point "
-                                  "of \"P\"",
-                                  values.size(), atoms));
-  return values;
-}
-
-Field readField(Params& params) {
-  const std::vector<Point3> centres = params.points("P", "centres of the atoms");
-  params.require("P");
-  const std::vector<float> radii =
-      perAtom(params, "radius", centres.size(),
-              "where an atom's field ends, for all atoms or for each (default 1)", "scene units");
-  const std::vector<float> strengths = perAtom(
-      params, "strength", centres.size(),
-      "scale of an atom's field, for all atoms or for each; negative carves (default 1)", "");
-  const std::string name =
-      params.choice("kernel", kKernels, kKernels[0], "how the field falls with the distance");
-  const auto kernel = static_cast<Kernel>(std::ranges::find(kKernels, name) - kKernels.begin());
-
-  float largest = 0;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    const auto check = [&](bool good, const std::string& parameter, float value,
-                           std::string_view rule) {
-      if (!good)
-        params.fail(parameter, fmt::format("atom {} (the first is 0): {} is {}, but {}", i,
-                                           parameter, value, rule));
-    };
-    const Point3& c = centres[i];
-    for (int k = 0; k < 3; ++k) check(std::isfinite(c[k]), "P", c[k], "a centre must be finite");
-    check(std::isfinite(radii[i]) && radii[i] > 0, "radius", radii[i],
-          "a support radius must be finite and greater than 0: a field over no space has no "
-          "surface");
-    check(std::isfinite(strengths[i]), "strength", strengths[i], "a strength must be finite");
-    check(isFinite(c - radii[i]) && isFinite(c + radii[i]), "radius", radii[i],
-          "the atom must lie within the range of float");
-    largest = std::max(largest, radii[i]);
-  }
-
-  // poly6 is a density: its values scale with 1 / h^3, and so does the default. A lone atom of
-  // strength 1 is then a ball of 0.563 h whatever its h.
-  const bool density = kernel == Kernel::poly6 && largest > 0;
-  const double fallback = density ? 0.5 / std::pow(static_cast<double>(largest), 3) : 0.5;
-  const float given = params.number(
-      "threshold", static_cast<float>(fallback),
-      "value of the field on the surface (poly6: the default is over the largest radius cubed)",
-      kernel == Kernel::poly6 ? "per volume" : "");
-  const double threshold = params.has("threshold") ? given : fallback;
-  if (!std::isfinite(threshold) || threshold <= 0)
-    params.fail("threshold",
-                fmt::format("the threshold is {}, but it must be finite and greater "
-                            "than 0: the field is 0 away from all atoms, so the inside "
-                            "would have no end",
-                            threshold));
-
-  std::vector<Atom> atoms;
-  for (std::size_t i = 0; i < centres.size(); ++i) {
-    const double h = radii[i];
-    if (strengths[i] != 0)
-      atoms.push_back({centres[i], radii[i], 1 / h, strengths[i] * scale(kernel, h) / threshold});
-  }
-  return {kernel, std::move(atoms)};
-}
-
-}  // namespace
-
-class Metaballs final : public Shape {
+class Metaballs final : public Shape, private SurfaceColor {
  public:
-  explicit Metaballs(Params& params) : field_(readField(params)), cells_(field_) {
+  explicit Metaballs(Params& params) : Metaballs(readInput(params)) {
     if (cells_.cells().empty() && !params.describing())
-      params.warn("P", "the field stays below the threshold everywhere: there is no surface");
+      params.warn(params.has("filename") ? "filename" : "P",
+                  "the field stays below the threshold everywhere: there is no surface");
   }
 
   std::uint32_t primitives() const override {
     return std::max<std::uint32_t>(1, static_cast<std::uint32_t>(cells_.cells().size()));
   }
   Bounds3 bounds(std::uint32_t primitive) const override {
-    return cells_.cells().empty() ? Bounds3() : cells_.cells()[primitive].box;
+    return cells_.cells().empty() ? Bounds3() : Cells::bounds(cells_.cells()[primitive]);
   }
 
   std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t primitive) const override;
@@ -106,14 +34,25 @@ class Metaballs final : public Shape {
     return crosses(field_, cell, cells_.atoms(cell), ray);
   }
   SurfacePoint surface(const ObjectRay& ray, const ShapeHit& hit) const override;
+  const AreaSampler* areaSampler() const override {
+    std::call_once(samplerMade_, [&] { sampler_.emplace(field_, cells_); });
+    return sampler_->area() > 0 ? &*sampler_ : nullptr;
+  }
+  const SurfaceColor* color() const override { return colors_.empty() ? nullptr : this; }
 
  private:
-  double errorBound(const DPoint3& p, const DVec3& n, double start, double limit,
-                    AtomList list) const;
+  explicit Metaballs(Input input)
+      : field_(std::move(input.field)), cells_(field_), colors_(std::move(input.colors)) {}
+
+  Spectrum at(const DPoint3& p, std::uint32_t primitive) const override;
+  double errorBound(const FieldSample& field, double size) const;
   void parametrise(SurfacePoint& at, const FieldSample& field) const;
 
   Field field_;
   Cells cells_;
+  std::vector<Spectrum> colors_;  // of the atoms; may be empty
+  mutable std::once_flag samplerMade_;
+  mutable std::optional<PatchSampler> sampler_;  // made when an area light asks for it
 };
 
 std::optional<ShapeHit> Metaballs::intersect(const ObjectRay& ray, std::uint32_t primitive) const {
@@ -134,15 +73,14 @@ SurfacePoint Metaballs::surface(const ObjectRay& ray, const ShapeHit& hit) const
   SurfacePoint at;
   at.p = ray.at(static_cast<double>(hit.t) + hit.u);
 
-  // Newton's method along the gradient. Where the gradient all but vanishes a step would lead far
-  // away: the point stays.
-  const double limit = 0x1p-8 * glm::length(DVec3(cell.box.diagonal()));
+  // Newton's method along the gradient, mostly not needed. Where the gradient all but vanishes a
+  // step would lead far away: the point stays.
+  const double limit = 0x1p-3 * glm::length(DVec3(cell.box.diagonal()));
   const double size = std::abs(at.p.x) + std::abs(at.p.y) + std::abs(at.p.z);
   FieldSample field = field_.sample(at.p, list);
-  double off = 0;
   for (int i = 0; i < 4; ++i) {
-    off = std::abs(field.value) / glm::length(field.gradient);
-    if (!(off > 2 * kEpsilon * size && off < limit)) break;
+    const double off = std::abs(field.value) / glm::length(field.gradient);
+    if (!(off > 4 * kEpsilon * size && std::abs(field.value) > field.error && off < limit)) break;
     at.p -= field.value / lengthSquared(field.gradient) * field.gradient;
     field = field_.sample(at.p, list);
   }
@@ -150,25 +88,40 @@ SurfacePoint Metaballs::surface(const ObjectRay& ray, const ShapeHit& hit) const
   // Inside is where the field is higher. Without a direction to tell, face the ray.
   const DVec3 g = field.gradient / glm::length(field.gradient);
   at.n = Normal3(std::isfinite(g.x + g.y + g.z) ? -g : -glm::normalize(ray.d));
-  const double radius = field_.atoms()[field.strongest].radius;
-  at.error = errorBound(at.p, DVec3(at.n), 0x1p-44 * (size + radius), limit, list);
+  at.error = errorBound(field, size);
   parametrise(at, field);
   return at;
 }
 
-// The distance e, at least `start`, for which the field provably is above the threshold all around
-// p - e n and below it around p + e n. So the surface passes between, and a ray from either point
-// does not start on it. Where no e below `limit` will do, as where the surface touches itself or a
-// ray grazed it within rounding: `start`.
-double Metaballs::errorBound(const DPoint3& p, const DVec3& n, double start, double limit,
-                             AtomList list) const {
-  for (double e = start; e < limit; e *= 2) {
-    const DVec3 around(0.5 * e), in = p - e * n, out = p + e * n;
-    if (field_.bound(in - around, in + around, list).lo > 0 &&
-        field_.bound(out - around, out + around, list).hi < 0)
-      return e;
-  }
-  return start;
+// The distance e for which the field provably is above zero at p - e n and below at p + e n, so
+// that the surface passes between: |f(p)| <= v = |value| + error, and along n the field falls at
+// least by |g| - bend e - jump over the length. With e = 2 v / |g| that is enough while
+// bend e + jump <= |g| / 2. Where that does not hold, as where the surface touches itself or a ray
+// grazed it within rounding, e is cut off. It is no less than a few roundings of p, whose
+// coordinates are of this `size`.
+double Metaballs::errorBound(const FieldSample& field, double size) const {
+  const double steep = glm::length(field.gradient);
+  const double least = 8 * kEpsilon * size;
+  const double e = 2.1 * (std::abs(field.value) + field.error) / steep;
+  const bool proven = e * field.bend + field.jump <= 0.5 * steep;
+  return std::max(least,
+                  proven ? e : std::min(e, 0x1p-30 * field_.atoms()[field.strongest].radius));
+}
+
+// The mean of the atoms' colours by what each adds to the field; those that carve have none.
+Spectrum Metaballs::at(const DPoint3& p, std::uint32_t primitive) const {
+  DVec3 sum(0);
+  double weights = 0;
+  withKernel(field_.kernel(), [&]<class K>(K) {
+    for (const std::uint32_t j : cells_.atoms(cells_.cells()[primitive])) {
+      const Atom& atom = field_.atoms()[j];
+      const double q = lengthSquared(p - DPoint3(atom.centre)) / sqr<double>(atom.radius);
+      const double weight = std::max(0.0, atom.weight) * K::value(q);
+      sum += weight * DVec3(colors_[j]);
+      weights += weight;
+    }
+  });
+  return weights > 0 ? Spectrum(sum / weights) : Spectrum(0);
 }
 
 // With w(u, v) the unit direction from the strongest atom, p = a + R(u, v) w. Its derivative

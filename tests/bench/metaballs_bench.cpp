@@ -20,7 +20,7 @@ Field ballOfAtoms(int count, Kernel kernel) {
   while (std::ssize(atoms) < count) {
     const Vec3 p = 2.F * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.F;
     if (lengthSquared(p) > 1) continue;
-    atoms.push_back({extent * p, 1, 1, scale(kernel, 1) / (kernel == Kernel::poly6 ? 0.78 : 0.5)});
+    atoms.push_back({extent * p, 1, scale(kernel, 1) / (kernel == Kernel::poly6 ? 0.78 : 0.5)});
   }
   return {kernel, atoms};
 }
@@ -32,7 +32,7 @@ class CellShape final : public Shape {
   std::uint32_t primitives() const override {
     return static_cast<std::uint32_t>(cells_.cells().size());
   }
-  Bounds3 bounds(std::uint32_t i) const override { return cells_.cells()[i].box; }
+  Bounds3 bounds(std::uint32_t i) const override { return Cells::bounds(cells_.cells()[i]); }
   std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t i) const override {
     const Cell& cell = cells_.cells()[i];
     const auto t = firstCrossing(field_, cell, cells_.atoms(cell), ray, &effort);
@@ -97,8 +97,8 @@ void trace(benchmark::State& state) {
   state.counters["cells"] = shape.primitives();
   state.counters["atoms/cell"] = shape.atomsPerCell();
   if (!Occlusion) {
-    state.counters["intervals"] = perRay(shape.effort.intervals);
-    state.counters["points"] = perRay(shape.effort.points);
+    state.counters["intervals"] = perRay(shape.effort.floats);
+    state.counters["points"] = perRay(shape.effort.doubles);
   }
 }
 

@@ -47,20 +47,24 @@ class Emitters : public test::Shapes {
     solidAngle = 1 / uniformConePdf(cone);
     return Frame::fromZ(glm::normalize(axis)).fromLocal(uniformCone(u, cone));
   }
-  // The integral of f over the unit square, by independent sums over jittered grids: each is far
-  // nearer to the integral than as many random points.
-  template <class F>
-  Mean integral(F f) {
+  // The integrals over the unit square of what f(u, sums) adds to the sums, by independent sums
+  // over jittered grids: each is far nearer to the integral than as many random points.
+  template <std::size_t N, class F>
+  std::array<Mean, N> integrals(F f) {
     constexpr int batches = 64, grid = 23;  // a prime: no edge falls between its rows every time
-    Mean mean;
+    std::array<Mean, N> means;
     for (int k = 0; k < batches; ++k) {
-      double sum = 0;
+      std::array<double, N> sums{};
       for (int i = 0; i < grid; ++i)
         for (int j = 0; j < grid; ++j)
-          sum += f((Point2(i, j) + Point2(rng_.uniform(), rng_.uniform())) / float{grid});
-      mean.add(sum / (grid * grid));
+          f((Point2(i, j) + Point2(rng_.uniform(), rng_.uniform())) / float{grid}, sums);
+      for (std::size_t i = 0; i < N; ++i) means[i].add(sums[i] / (grid * grid));
     }
-    return mean;
+    return means;
+  }
+  template <class F>
+  Mean integral(F f) {
+    return integrals<1>([&](Point2 u, std::array<double, 1>& sum) { sum[0] += f(u); })[0];
   }
 
   const AreaSampler* sampler_ = nullptr;
@@ -97,8 +101,9 @@ TEST_P(Emitters, SamplesLieOnTheSurfaceWithTheDensityTheyTell) {
     }
 }
 
-// The density of sample(), over all directions that meet the surface, has the integral one.
-TEST_P(Emitters, DensityIntegratesToOne) {
+// The density of sample(), over all directions that meet the surface, integrates to the share of
+// draws that give a sample.
+TEST_P(Emitters, DensityIntegratesToTheShareOfSamples) {
   for (const DPoint3& from : from_) {
     const Mean density = integral([&](Point2 u) {
       double solidAngle = 0, sum = 0;
@@ -106,32 +111,34 @@ TEST_P(Emitters, DensityIntegratesToOne) {
                 [&](const SurfacePoint& s) { sum += sampler_->pdf(from, s.p, s.n); });
       return sum * solidAngle;
     });
-    expectNear(density.mean(), 1, density.variance(), "density");
+    const Mean share =
+        integral([&](Point2 u) { return sampler_->sample(from, u).pdf > 0 ? 1 : 0; });
+    expectNear(density.mean(), share.mean(), density.variance() + share.variance(), "density");
   }
 }
 
 // Each eighth of the shape fills as much of the view by samples as by directions. This holds only
 // if sample() has the density that pdf() tells, everywhere.
 TEST_P(Emitters, SamplesAndDirectionsSeeTheSame) {
+  using Octants = std::array<double, 8>;
   const auto octant = [&](const DPoint3& p) {
     return (p.x > centre_.x ? 1U : 0U) | (p.y > centre_.y ? 2U : 0U) | (p.z > centre_.z ? 4U : 0U);
   };
-  for (const DPoint3& from : from_)
-    for (unsigned k = 0; k < 8; ++k) {
-      const Mean directions = integral([&](Point2 u) {
-        double solidAngle = 0, seen = 0;
-        crossings({from, towards(from, u, solidAngle)}, [&](const SurfacePoint& s) {
-          seen += octant(s.p) == k && sampler_->pdf(from, s.p, s.n) > 0 ? 1 : 0;
-        });
-        return seen * solidAngle;
+  for (const DPoint3& from : from_) {
+    const auto directions = integrals<8>([&](Point2 u, Octants& seen) {
+      double solidAngle = 0;
+      crossings({from, towards(from, u, solidAngle)}, [&](const SurfacePoint& s) {
+        if (sampler_->pdf(from, s.p, s.n) > 0) seen[octant(s.p)] += solidAngle;
       });
-      const Mean samples = integral([&](Point2 u) {
-        const AreaSample s = sampler_->sample(from, u);
-        return s.pdf > 0 && octant(s.p) == k ? 1.0 / s.pdf : 0.0;
-      });
-      expectNear(samples.mean(), directions.mean(), samples.variance() + directions.variance(),
-                 "solid angle");
-    }
+    });
+    const auto samples = integrals<8>([&](Point2 u, Octants& seen) {
+      const AreaSample s = sampler_->sample(from, u);
+      if (s.pdf > 0) seen[octant(s.p)] += 1.0 / s.pdf;
+    });
+    for (unsigned k = 0; k < 8; ++k)
+      expectNear(samples[k].mean(), directions[k].mean(),
+                 samples[k].variance() + directions[k].variance(), "solid angle");
+  }
 }
 
 TEST_P(Emitters, WhatIsHitMayBeHit) {

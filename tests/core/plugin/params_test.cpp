@@ -2,6 +2,11 @@
 
 #include "core/plugin/params.h"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+
 #include "core/plugin/plugin.h"
 #include "tests/support.h"
 
@@ -198,6 +203,35 @@ TEST(Params, ListsNeedWholeValues) {
   Params p = reader(list);
   EXPECT_NE(failure([&] { p.points2("uv", ""); }).message.find("not a multiple of 2"),
             std::string::npos);
+}
+
+TEST(Params, FilesAreFoundFromTheScenesFolder) {
+  const std::filesystem::path folder =
+      std::filesystem::path(::testing::TempDir()) / fmt::format("params-{}", getpid());
+  std::filesystem::create_directories(folder / "sub");
+  std::ofstream(folder / "sub" / "a.ply") << "ply";
+  const Source scene{(folder / "scene.pbrt").string(), "\"sub/a.ply\" \"sub/b.ply\""};
+  const auto named = [&](const std::string& path, std::size_t begin) {
+    Param p = text("filename", path);
+    p.where = p.valueWhere = {&scene, begin, 11};
+    return ParamList{p};
+  };
+  const auto read = [](const ParamList& list) { return reader(list).file("filename", ""); };
+
+  EXPECT_EQ(read(named("sub/a.ply", 0)), folder / "sub" / "a.ply");
+  const std::string whole = (folder / "sub" / "a.ply").string();
+  EXPECT_EQ(read(named(whole, 0)), whole);
+  EXPECT_TRUE(read({}).empty());
+
+  const ParamList missing = named("sub/b.ply", 12);
+  const Diagnostic d = failure([&] { read(missing); });
+  EXPECT_EQ(d.column, 13U);
+  EXPECT_NE(d.message.find((folder / "sub" / "b.ply").string()), std::string::npos);
+
+  // A scene that is no file.
+  const ParamList piped = {placed(text("filename", "sub/a.ply"))};
+  EXPECT_NE(failure([&] { read(piped); }).message.find(": sub/a.ply"), std::string::npos);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(Params, DescribingRecordsEveryDeclaration) {

@@ -12,7 +12,7 @@ namespace pbrt::metaballs::test {
 
 // `strength` over the threshold, where a lone atom of radius `unit` has its own kernel's peak at 1.
 inline Atom atom(Kernel kernel, const Point3& p, float h, double strength, double unit = 1) {
-  return {p, h, 1.0 / h, strength * scale(kernel, h) / scale(kernel, unit)};
+  return {p, h, strength * scale(kernel, h) / scale(kernel, unit)};
 }
 
 struct Random : Rng {

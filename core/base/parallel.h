@@ -1,0 +1,25 @@
+#pragma once
+// Work on all cores. parallel.cpp and the render loop are the only users of oneTBB.
+
+#include <cstddef>
+#include <functional>
+
+namespace pbrt {
+
+// Calls body(0) ... body(n - 1), in any order and on several threads, and returns when all have
+// returned. An exception of a body comes out of here; the bodies not yet begun are then skipped.
+void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
+
+// While it lives, no more than this many threads work; 0: as many as the process may use.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  void* limit_ = nullptr;
+};
+
+}  // namespace pbrt
