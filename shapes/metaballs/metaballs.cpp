@@ -74,8 +74,10 @@ SurfacePoint Metaballs::surface(const ObjectRay& ray, const ShapeHit& hit) const
   at.p = ray.at(static_cast<double>(hit.t) + hit.u);
 
   // Newton's method along the gradient, mostly not needed. Where the gradient all but vanishes a
-  // step would lead far away: the point stays.
-  const double limit = 0x1p-3 * glm::length(DVec3(cell.box.diagonal()));
+  // step would lead far away: the point stays. From very far away t + u is coarse, though.
+  const double rounding =
+      0x1p-45 * glm::length(glm::abs(ray.o) + static_cast<double>(hit.t) * glm::abs(ray.d));
+  const double limit = std::max(0x1p-8 * glm::length(DVec3(cell.box.diagonal())), rounding);
   const double size = std::abs(at.p.x) + std::abs(at.p.y) + std::abs(at.p.z);
   FieldSample field = field_.sample(at.p, list);
   for (int i = 0; i < 4; ++i) {

@@ -30,7 +30,7 @@ class Search {
         effort_(*query.effort),
         any_(query.any),
         tolerance_(0x1p-46 * (2 * piece.half) + piece.error),
-        acceptable_(std::max(std::max(query.acceptable, tolerance_), 0x1p-40 * piece.half)),
+        acceptable_(std::max(std::max(query.acceptable, tolerance_), 0x1p-44 * piece.half)),
         startsUntil_(piece.starts ? -piece.half : -kInfinity),
         floats_(atoms, list, piece, query.near) {}
   ~Search() {
@@ -84,15 +84,21 @@ std::optional<double> Search<K>::first(double s0, double s1, bool inFloat) {
   const bool sharp = !inFloat && f.hi - f.lo <= 4 * f.rounding;
   Suspect suspect;
   for (double from = 0; from < 1 && f.suspect(from, suspect); from = suspect.b + 0x1p-50) {
-    const double a = std::max(s0, start + suspect.a * w), b = std::min(s1, start + suspect.b * w);
+    double a = start + suspect.a * w, b = start + suspect.b * w;
+    const bool certain = suspect.certain && (!inFloat || (a >= s0 && b <= s1));
+    a = std::max(a, s0);
+    b = std::min(b, s1);
     if (!(a <= b)) continue;
-    const bool certain = suspect.certain && a > s0 && b < s1;
-    if (certain && (any_ || sharp || b - a <= acceptable_)) return start + suspect.guess * w;
-    if (sharp && a <= startsUntil_) {
-      startsUntil_ = b + tolerance_;
-      continue;
+    if (certain && (any_ || b - a <= acceptable_)) return start + suspect.guess * w;
+    if (certain && sharp && look(a, b, false).rounding > 0.5 * f.rounding)
+      return start + suspect.guess * w;  // nothing would be seen better from nearer
+    if (!certain && sharp) {
+      if (a <= startsUntil_) {
+        startsUntil_ = b + tolerance_;
+        continue;
+      }
+      if (b - a <= tolerance_) return 0.5 * (a + b);
     }
-    if (sharp && b - a <= tolerance_) return 0.5 * (a + b);
     std::optional<double> s;
     if (b - a <= 0.5 * w || inFloat) {
       s = first(a, b, inFloat && b - a > 0x1p-7 * piece_.half && b - a <= 0.5 * w);
