@@ -79,45 +79,49 @@ struct Bernstein {
   void bracket(double a, double b, double sign, double slope, Suspect& s) const {
     const double start = sign * c[0], end = sign * c[D];
     // A little more, so that what is beyond the suspect is seen to be excluded.
-    const double up = (1 + 0x1p-20) * (sign > 0 ? hi : -lo);
-    const double down = (1 + 0x1p-20) * (sign > 0 ? -lo : hi);
-    const double w = b - a;
-    double x = start >= 0 ? 0 : end <= 0 ? 1 : zero(sign);
+    double up = (1 + 0x1p-20) * (sign > 0 ? hi : -lo), down = (1 + 0x1p-20) * (sign > 0 ? -lo : hi);
+    s.certain = start + up < 0 && end - down > 0;
+    double x = start >= 0 ? 0 : 1;
+    if (start < 0 && end > 0) {
+      double left = 0;
+      x = zero(0x1p-5 * (up + down), left);
+      up += left, down += left;
+    }
     // Beyond its end the zero is at least (distance from zero) / slope away: counts against `up`.
     const double before = std::max(0.0, up + std::min(0.0, end)) / slope;
     const double after = std::max(0.0, down - std::max(0.0, start)) / slope;
+    const double w = b - a;
     s.a = a + w * std::max(0.0, x - before);
     s.b = a + w * std::min(1.0, x + after);
     s.guess = a + w * x;
-    s.certain = start + up < 0 && end - down > 0;
   }
 
-  // The zero of a monotone c that changes its sign: Newton's method, kept in the bracket.
-  double zero(double sign) const {
-    std::array<double, D + 1> p = c;  // in powers of x: forward differences times binomials
-    double binomial = 1;
-    for (int k = 1; k <= D; ++k) {
-      for (int i = D; i >= k; --i) p[i] -= p[i - 1];
-    }
-    for (int k = 1; k <= D; ++k) {
-      binomial = binomial * (D - k + 1) / k;
-      p[k] *= binomial;
-    }
+  // Where a monotone c that changes its sign is as small as `enough`; |c| there is `left`. Newton's
+  // method, kept in the bracket.
+  double zero(double enough, double& left) const {
+    // In powers of x: forward differences times binomials.
+    const double p[D + 1] = {
+        c[0],
+        6 * (c[1] - c[0]),
+        15 * (c[2] - 2 * c[1] + c[0]),
+        20 * (c[3] - c[0] - 3 * (c[2] - c[1])),
+        15 * (c[4] + c[0] - 4 * (c[3] + c[1]) + 6 * c[2]),
+        6 * (c[5] - c[0] - 5 * (c[4] - c[1]) + 10 * (c[3] - c[2])),
+        c[6] + c[0] - 6 * (c[5] + c[1]) + 15 * (c[4] + c[2]) - 20 * c[3]};
+    const bool rising = c[0] < 0;
     double below = 0, above = 1, x = c[0] / (c[0] - c[D]);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0;; ++i) {
       double f = p[D], df = 0;
       for (int k = D - 1; k >= 0; --k) {
         df = df * x + f;
         f = f * x + p[k];
       }
-      (sign * f < 0 ? below : above) = x;
-      double next = x - f / df;
-      if (!(next >= below && next <= above)) next = 0.5 * (below + above);
-      const double step = std::abs(next - x);
-      x = next;
-      if (step <= 0x1p-50 || above - below <= 0x1p-50) break;
+      left = std::abs(f);
+      if (left <= enough || i == 60) return x;
+      ((f < 0) == rising ? below : above) = x;
+      const double next = x - f / df;
+      x = next >= below && next <= above ? next : 0.5 * (below + above);
     }
-    return x;
   }
 };
 

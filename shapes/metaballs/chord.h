@@ -215,14 +215,20 @@ Bernstein Chord<K, V>::over(T s0, T s1) const {
   // sums of products weighted by binomials (Farouki and Rajan 1988, eqs. 44 and 27).
   Bernstein f;
   f.c.fill(-1);
-  const auto total = [](const V& v) { return static_cast<double>(PBRT_LANES::sum(v)); };
+  // The last four lanes: margins and magnitudes.
+  const V rest = sums(sum.constant, sum.linear[0], sum.linear[1], sum.linear[2], sum.lo, sum.hi,
+                      sum.rounding, sum.magnitude);
   if constexpr (K::kCubic) {
+    const V e = sums(sum.cubic[0], sum.cubic[1], sum.cubic[2], sum.cubic[3], sum.cubic[4],
+                     sum.cubic[5], sum.cubic[6], V{});
     constexpr double share[7] = {1, 1, 0.2, 0.2, 0.2, 1, 1};
-    for (int i = 0; i < 7; ++i) f.c[i] += share[i] * total(sum.cubic[i]);
+    for (int i = 0; i < 7; ++i) f.c[i] += share[i] * static_cast<double>(e[i]);
   }
   if constexpr (K::kQuadratic) {
+    const V sum4 = sums(sum.quadratic[0], sum.quadratic[1], sum.quadratic[2], sum.quadratic[3],
+                        sum.quadratic[4], V{}, V{}, V{});
     double e[5];
-    for (int i = 0; i < 5; ++i) e[i] = total(sum.quadratic[i]);
+    for (int i = 0; i < 5; ++i) e[i] = sum4[i];
     e[2] /= 3;
     f.c[0] += e[0];
     f.c[1] += (e[0] + 2 * e[1]) / 3;
@@ -233,9 +239,7 @@ Bernstein Chord<K, V>::over(T s0, T s1) const {
     f.c[6] += e[4];
   }
   if constexpr (K::kLinear) {
-    double d[3];
-    for (int i = 0; i < 3; ++i) d[i] = total(sum.linear[i]);
-    const double k = total(sum.constant);
+    const double k = rest[0], d[3] = {rest[1], rest[2], rest[3]};
     f.c[0] += k + d[0];
     f.c[1] += k + (2 * d[0] + d[1]) / 3;
     f.c[2] += k + (6 * d[0] + 8 * d[1] + d[2]) / 15;
@@ -246,14 +250,15 @@ Bernstein Chord<K, V>::over(T s0, T s1) const {
   }
   // A sum of n terms in eight lanes loses less than (n / 8 + 8) epsilon of its magnitude; an
   // ordinate is the sum of few products; what follows is in double.
-  const double sums = static_cast<double>(groups_) + 16 + 3 * K::kRounding;
+  const double terms = static_cast<double>(groups_) + 16 + 3 * K::kRounding;
   double largest = 1;
   for (const double c : f.c) largest = std::max(largest, std::abs(c));
-  const double rounding = 1.01 * total(sum.rounding) + sums * kEpsilon * total(sum.magnitude) +
+  const double rounding = 1.01 * static_cast<double>(rest[6]) +
+                          terms * kEpsilon * static_cast<double>(rest[7]) +
                           64 * std::numeric_limits<double>::epsilon() * largest;
   f.rounding = rounding;
-  f.lo = total(sum.lo) * (1 + 64 * kEpsilon) - rounding;
-  f.hi = total(sum.hi) * (1 + 64 * kEpsilon) + rounding;
+  f.lo = static_cast<double>(rest[4]) * (1 + 64 * kEpsilon) - rounding;
+  f.hi = static_cast<double>(rest[5]) * (1 + 64 * kEpsilon) + rounding;
   return f;
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-// Eight numbers at once, by the vector extension that g++ and clang share. The sums of a vector
-// have one order, whatever the machine's registers: results are the same on every instruction set.
+// Eight numbers at once, by the vector extension that g++ and clang share. Sums over the lanes have
+// one order, whatever the machine's registers: results are the same on every instruction set.
 
 #include <cstdint>
 
@@ -68,9 +68,21 @@ unsigned bits(Mask mask) {
   return all;
 }
 
+// The sums of the lanes of each of eight vectors, as the lanes of one.
 template <class V>
-Lane<V> sum(V v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+V sums(const V& a, const V& b, const V& c, const V& d, const V& e, const V& f, const V& g,
+       const V& h) {
+  const auto pairs = [](const V& x, const V& y) {
+    return __builtin_shufflevector(x, y, 0, 8, 2, 10, 4, 12, 6, 14) +
+           __builtin_shufflevector(x, y, 1, 9, 3, 11, 5, 13, 7, 15);
+  };
+  const auto fours = [](const V& x, const V& y) {
+    return __builtin_shufflevector(x, y, 0, 1, 8, 9, 4, 5, 12, 13) +
+           __builtin_shufflevector(x, y, 2, 3, 10, 11, 6, 7, 14, 15);
+  };
+  const V ad = fours(pairs(a, b), pairs(c, d)), eh = fours(pairs(e, f), pairs(g, h));
+  return __builtin_shufflevector(ad, eh, 0, 1, 2, 3, 8, 9, 10, 11) +
+         __builtin_shufflevector(ad, eh, 4, 5, 6, 7, 12, 13, 14, 15);
 }
 
 }  // namespace PBRT_LANES

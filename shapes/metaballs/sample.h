@@ -38,19 +38,18 @@ FieldSample sample(std::span<const Atom> atoms, const DPoint3& p, AtomList list)
     most = more ? own : most;
     strongest = more ? V{} + static_cast<double>(i) : strongest;
   }
+  const V u = sums(value, gx, gy, gz, identity, bend, slopes, magnitude);
+  const V v = sums(xx, yy, zz, xy, xz, yz, jump, V{});
   FieldSample s;
-  s.value = sum(value) - 1;
-  s.gradient = {sum(gx), sum(gy), sum(gz)};
-  const double identityPart = sum(identity);
-  s.hessian = glm::dmat3(identityPart + sum(xx), sum(xy), sum(xz), sum(xy), identityPart + sum(yy),
-                         sum(yz), sum(xz), sum(yz), identityPart + sum(zz));
-  s.bend = K::kBend * sum(bend);
-  s.jump = K::kJump * sum(jump);
+  s.value = u[0] - 1;
+  s.gradient = {u[1], u[2], u[3]};
+  s.hessian = {u[4] + v[0], v[3], v[4], v[3], u[4] + v[1], v[5], v[4], v[5], u[4] + v[2]};
+  s.bend = K::kBend * u[5];
+  s.jump = K::kJump * v[6];
   // q is off by less than 16 epsilon: differences of coordinates are rounded once, relative to
   // themselves. The rest is the rounding of K (the gaussian's, of K + exp(-b)) and of the sum.
-  s.error =
-      epsilon * ((16 + K::kRounding) * sum(slopes) +
-                 (static_cast<double>(list.size()) + 16 + K::kRounding) * (1 + sum(magnitude)));
+  const auto terms = static_cast<double>(list.size() + 16 + K::kRounding);
+  s.error = epsilon * ((16 + K::kRounding) * u[6] + terms * (1 + u[7]));
   int lane = 0;
   for (int k = 1; k < kLanes; ++k)
     if (most[k] > most[lane]) lane = k;

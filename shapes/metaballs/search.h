@@ -90,8 +90,10 @@ std::optional<double> Search<K>::first(double s0, double s1, bool inFloat) {
     b = std::min(b, s1);
     if (!(a <= b)) continue;
     if (certain && (any_ || b - a <= acceptable_)) return start + suspect.guess * w;
-    if (certain && sharp && look(a, b, false).rounding > 0.5 * f.rounding)
-      return start + suspect.guess * w;  // nothing would be seen better from nearer
+    // From nearer nothing would be seen better. (Rounding is that of the steepest place.)
+    if (certain && sharp &&
+        (w <= 0x1p-10 * piece_.half || look(a, b, false).rounding > 0.5 * f.rounding))
+      return start + suspect.guess * w;
     if (!certain && sharp) {
       if (a <= startsUntil_) {
         startsUntil_ = b + tolerance_;
