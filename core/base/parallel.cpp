@@ -16,12 +16,8 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
 
 ThreadLimit::ThreadLimit(int threads) {
   if (threads > 0)
-    limit_ = new tbb::global_control(tbb::global_control::max_allowed_parallelism,
-                                     static_cast<std::size_t>(threads));
-}
-
-ThreadLimit::~ThreadLimit() {
-  delete static_cast<tbb::global_control*>(limit_);
+    limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                   static_cast<std::size_t>(threads));
 }
 
 }  // namespace pbrt

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <memory>
 
 namespace pbrt {
 
@@ -14,12 +15,9 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
-  ~ThreadLimit();
-  ThreadLimit(const ThreadLimit&) = delete;
-  ThreadLimit& operator=(const ThreadLimit&) = delete;
 
  private:
-  void* limit_ = nullptr;
+  std::shared_ptr<void> limit_;  // oneTBB's own
 };
 
 }  // namespace pbrt

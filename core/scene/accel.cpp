@@ -7,9 +7,9 @@
 #endif
 #include <fmt/format.h>
 
+#include <atomic>
 #include <utility>
 
-#include "core/base/error.h"
 #include "core/scene/placement.h"
 
 namespace pbrt {
@@ -131,19 +131,27 @@ void setLane(Ray16& e, int i, const Ray& ray, float reach) {
 }
 
 // Embree leaves out, without a word, what reaches farther.
-void checkReach(const Bounds3& b, float reach, std::string_view what) {
+bool isWithin(const Bounds3& b, float reach) {
   const Bounds3 all{Point3(-reach), Point3(reach)};
-  if (!b.empty() && !(all.contains(b.lo) && all.contains(b.hi)))
-    throw Error(fmt::format("{} farther than {:.0e} from the camera, too far for the ray tracer",
-                            what, reach));
+  return b.empty() || (all.contains(b.lo) && all.contains(b.hi));
+}
+
+Error tooFar(const Location& where, float reach, std::string_view what) {
+  return {where, fmt::format("{} farther than {:.0e} from the camera, too far for the ray tracer",
+                             what, reach)};
 }
 
 }  // namespace
 
 struct Accel::UserGeometry {
+  UserGeometry(const Shape& s, const Transform& t, const Location& l)
+      : shape(&s), toObject(t.inverse()), toScene(t), where(l) {}
+
   const Shape* shape;
   Transform toObject;
   Transform toScene;
+  Location where;
+  std::atomic<bool> reachesTooFar = false;  // as Embree's threads see when they build
 
   // The ray of lane i as the shape sees it.
   ObjectRay ray(RTCRayN* rays, unsigned n, unsigned i) const {
@@ -155,8 +163,9 @@ struct Accel::UserGeometry {
   }
 
   static void bounds(const RTCBoundsFunctionArguments* a) {
-    const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    auto& g = *static_cast<UserGeometry*>(a->geometryUserPtr);
     const Bounds3 b = g.toScene.bounds(g.shape->bounds(a->primID));
+    if (!isWithin(b, kReach)) g.reachesTooFar.store(true, std::memory_order_relaxed);
     a->bounds_o->lower_x = b.lo.x, a->bounds_o->lower_y = b.lo.y, a->bounds_o->lower_z = b.lo.z;
     a->bounds_o->upper_x = b.hi.x, a->bounds_o->upper_y = b.hi.y, a->bounds_o->upper_z = b.hi.z;
   }
@@ -209,7 +218,7 @@ Accel::~Accel() {
 void Accel::add(TriangleMesh& mesh) {
   Bounds3 bounds;
   for (const Point3& p : mesh.positions) bounds.add(p);
-  checkReach(bounds, kReach, "the shape reaches");
+  if (!isWithin(bounds, kReach)) throw tooFar({}, kReach, "the shape reaches");
   mesh.positions.reserve(mesh.positions.size() + 1);
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_TRIANGLE);
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, mesh.positions.data(),
@@ -222,11 +231,8 @@ void Accel::add(TriangleMesh& mesh) {
   check(device(device_), "a triangle mesh");
 }
 
-void Accel::add(const Shape& shape, const Transform& toScene) {
-  for (std::uint32_t i = 0; i < shape.primitives(); ++i)
-    checkReach(toScene.bounds(shape.bounds(i)), kReach, "the shape reaches");
-  users_.push_back(
-      std::make_unique<UserGeometry>(UserGeometry{&shape, toScene.inverse(), toScene}));
+void Accel::add(const Shape& shape, const Transform& toScene, const Location& where) {
+  users_.push_back(std::make_unique<UserGeometry>(shape, toScene, where));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(g, shape.primitives());
   rtcSetGeometryUserData(g, users_.back().get());
@@ -254,7 +260,10 @@ void Accel::add(const Accel& instance, const Transform& toScene) {
 void Accel::build() {
   rtcCommitScene(scene(scene_));
   check(device(device_), "building the ray tree");
-  checkReach(bounds(), reach_, "with an object instance that small, the scene must not reach");
+  for (const auto& user : users_)
+    if (user->reachesTooFar) throw tooFar(user->where, kReach, "the shape reaches");
+  if (!isWithin(bounds(), reach_))
+    throw tooFar({}, reach_, "with an object instance that small, the scene must not reach");
 }
 
 Bounds3 Accel::bounds() const {

@@ -8,6 +8,7 @@
 
 #include "core/api/shape.h"
 #include "core/api/world.h"
+#include "core/base/error.h"
 
 namespace pbrt {
 
@@ -41,7 +42,8 @@ class Accel {
   // Traced natively, from the mesh's own arrays. Reserves room for one vertex more, which Embree
   // may read.
   void add(TriangleMesh& mesh);
-  void add(const Shape& shape, const Transform& toScene);
+  // `where` is what build() complains about if the shape reaches too far.
+  void add(const Shape& shape, const Transform& toScene, const Location& where = {});
   void add(const Accel& instance, const Transform& toScene);
   void build();
 

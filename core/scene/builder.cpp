@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/parallel.h"
 #include "core/scene/scene_builder.h"
 
 namespace pbrt {
@@ -223,6 +224,7 @@ bool SceneBuilder::handleWorld(Directive& d) {
 
 std::unique_ptr<Scene> buildScene(std::vector<Directive> directives, PluginLoader& loader,
                                   const BuildOptions& options) {
+  const ThreadLimit limit(options.threads);
   DetectedDialect dialect = detectDialect(directives);
   if (options.dialect) dialect = {*options.dialect, {}, "--dialect says so"};
   SceneBuilder builder(loader, options, dialect);

@@ -41,7 +41,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
     g->toGroup = Transform();
     group.accel.add(*g->mesh);
   } else {
-    group.accel.add(*g->shape, g->toGroup);
+    group.accel.add(*g->shape, g->toGroup, d.where);
   }
   ++scene_->shapes_;
   if (attributes.areaLight) {

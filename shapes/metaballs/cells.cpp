@@ -12,7 +12,7 @@ namespace pbrt::metaballs {
 namespace {
 
 // Longest edge of a cell over the smallest support radius that reaches it.
-constexpr float kFineness = 0.4F;
+constexpr float kFineness = 0.3F;
 // With no more atoms than this a cell may be as large as the smallest radius times kCoarse.
 constexpr std::size_t kFew = 8;
 constexpr float kCoarse = 2;

@@ -14,16 +14,22 @@ extern const Loops kLoops;
 }
 #endif
 
-const Loops& loops() {
-  static const Loops& best = []() -> const Loops& {
+std::span<const Loops* const> allLoops() {
+  static const std::vector<const Loops*> all = [] {
+    std::vector<const Loops*> supported{&portable::kLoops};
 #ifdef PBRT_X86
+    if (__builtin_cpu_supports("avx2")) supported.push_back(&avx2::kLoops);
     if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512dq"))
-      return avx512::kLoops;
-    if (__builtin_cpu_supports("avx2")) return avx2::kLoops;
+      supported.push_back(&avx512::kLoops);
 #endif
-    return portable::kLoops;
+    return supported;
   }();
+  return all;
+}
+
+const Loops& loops() {
+  static const Loops& best = *allLoops().back();
   return best;
 }
 

@@ -52,6 +52,9 @@ struct Loops {
   std::optional<double> (*find)(Kernel, std::span<const Atom>, AtomList, const RayQuery&);
 };
 
+// Those that this machine supports: the portable ones first, the best last.
+std::span<const Loops* const> allLoops();
+// The best.
 const Loops& loops();
 
 }  // namespace pbrt::metaballs
