@@ -11,8 +11,8 @@ inline namespace PBRT_LANES {
 // Numbers of eight atoms of a list, from `first` on; lanes beyond its end have weight zero.
 template <class V>
 struct AtomLanes {
-  V x, y, z;      // centre - near
-  V inverse;      // 1 / h
+  V x, y, z;  // centre - near
+  V inverse;  // 1 / h
   V weight;
 
   AtomLanes(std::span<const Atom> atoms, AtomList list, std::size_t first,

@@ -100,14 +100,13 @@ struct Bernstein {
   // method, kept in the bracket.
   double zero(double enough, double& left) const {
     // In powers of x: forward differences times binomials.
-    const double p[D + 1] = {
-        c[0],
-        6 * (c[1] - c[0]),
-        15 * (c[2] - 2 * c[1] + c[0]),
-        20 * (c[3] - c[0] - 3 * (c[2] - c[1])),
-        15 * (c[4] + c[0] - 4 * (c[3] + c[1]) + 6 * c[2]),
-        6 * (c[5] - c[0] - 5 * (c[4] - c[1]) + 10 * (c[3] - c[2])),
-        c[6] + c[0] - 6 * (c[5] + c[1]) + 15 * (c[4] + c[2]) - 20 * c[3]};
+    const double p[D + 1] = {c[0],
+                             6 * (c[1] - c[0]),
+                             15 * (c[2] - 2 * c[1] + c[0]),
+                             20 * (c[3] - c[0] - 3 * (c[2] - c[1])),
+                             15 * (c[4] + c[0] - 4 * (c[3] + c[1]) + 6 * c[2]),
+                             6 * (c[5] - c[0] - 5 * (c[4] - c[1]) + 10 * (c[3] - c[2])),
+                             c[6] + c[0] - 6 * (c[5] + c[1]) + 15 * (c[4] + c[2]) - 20 * c[3]};
     const bool rising = c[0] < 0;
     double below = 0, above = 1, x = c[0] / (c[0] - c[D]);
     for (int i = 0;; ++i) {

@@ -1,6 +1,7 @@
 #include "shapes/metaballs/cells.h"
 
 #include <array>
+#include <bit>
 #include <deque>
 #include <numeric>
 
@@ -178,10 +179,13 @@ Bounds3 Subtree::shaved(Bounds3 box, AtomList list) {
         return s;
       };
       const unsigned undecided = bounds(eightBoxes(slice), list, true).undecided;
-      const int free = undecided ? __builtin_ctz(undecided) : kLanes;
-      if (free > 0)
-        (side % 2 ? box.hi : box.lo)[axis] =
-            side % 2 ? slice(free - 1).lo[axis] : slice(free - 1).hi[axis];
+      const int free = std::min(std::countr_zero(undecided), kLanes);
+      if (free == 0) continue;
+      const Bounds3 cut = slice(free - 1);
+      if (side % 2)
+        box.hi[axis] = cut.lo[axis];
+      else
+        box.lo[axis] = cut.hi[axis];
     }
   return box;
 }

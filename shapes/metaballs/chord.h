@@ -84,9 +84,10 @@ class Chord {
   };
 
   Lines lines(std::size_t group) const;
-  static void add(const Lines& l, T s0, T s1, Sum& sum);
-  static void addCubic(V w, V b0, V b1, V b2, Sum& sum);
-  static void addQuadratic(V w, V b0, V b1, V b2, Sum& sum);
+  // Inlined, so that the sums stay in registers.
+  [[gnu::always_inline]] static void add(const Lines& l, T s0, T s1, Sum& sum);
+  [[gnu::always_inline]] static void addCubic(V w, V b0, V b1, V b2, Sum& sum);
+  [[gnu::always_inline]] static void addQuadratic(V w, V b0, V b1, V b2, Sum& sum);
 
   std::span<const Atom> atoms_;
   AtomList list_;
@@ -129,7 +130,7 @@ typename Chord<K, V>::Lines Chord<K, V>::lines(std::size_t group) const {
 
 // The product of three quadratics b, times 1, 6, 15, 20, 15, 6, 1 over common factors; see over().
 template <class K, class V>
-void Chord<K, V>::addCubic(V w, V b0, V b1, V b2, Sum& sum) {
+inline void Chord<K, V>::addCubic(V w, V b0, V b1, V b2, Sum& sum) {
   const V w0 = w * b0, w1 = w * b1, w2 = w * b2;
   const V s0 = b0 * b0, s1 = b1 * b1, s2 = b2 * b2;
   sum.cubic[0] += s0 * w0;
@@ -142,7 +143,7 @@ void Chord<K, V>::addCubic(V w, V b0, V b1, V b2, Sum& sum) {
 }
 
 template <class K, class V>
-void Chord<K, V>::addQuadratic(V w, V b0, V b1, V b2, Sum& sum) {
+inline void Chord<K, V>::addQuadratic(V w, V b0, V b1, V b2, Sum& sum) {
   const V w0 = w * b0, w1 = w * b1, w2 = w * b2;
   sum.quadratic[0] += b0 * w0;
   sum.quadratic[1] += b0 * w1;
@@ -154,7 +155,7 @@ void Chord<K, V>::addQuadratic(V w, V b0, V b1, V b2, Sum& sum) {
 // An atom whose support ends within [s0, s1] counts as the kernel gone on beyond its end, or as
 // nothing, whichever is less wrong.
 template <class K, class V>
-void Chord<K, V>::add(const Lines& l, T s0, T s1, Sum& sum) {
+inline void Chord<K, V>::add(const Lines& l, T s0, T s1, Sum& sum) {
   const V a = s0 - l.x, b = s1 - l.x;
   const V near = positivePart(max(a, -b));
   const V q0 = l.r0 + l.inverse2 * (a * a), q1 = l.r0 + l.inverse2 * (a * b),
@@ -205,11 +206,7 @@ void Chord<K, V>::add(const Lines& l, T s0, T s1, Sum& sum) {
 template <class K, class V>
 Bernstein Chord<K, V>::over(T s0, T s1) const {
   Sum sum;
-  for (std::size_t i = 0; i < groups_; ++i)
-    if (i < kStored)
-      add(stored_[i], s0, s1, sum);
-    else
-      add(lines(i), s0, s1, sum);
+  for (std::size_t i = 0; i < groups_; ++i) add(i < kStored ? stored_[i] : lines(i), s0, s1, sum);
 
   // The ordinates of a product of Bernstein polynomials, and of one raised to a higher degree, are
   // sums of products weighted by binomials (Farouki and Rajan 1988, eqs. 44 and 27).

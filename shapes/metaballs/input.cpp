@@ -154,7 +154,12 @@ Input readInput(Params& params) {
   for (std::size_t i = 0; i < centres.size(); ++i) {
     const float h = pick(radii, i), strength = pick(strengths, i);
     if (strength == 0) continue;
-    atoms.emplace_back(centres[i], h, strength * scale(kernel, h) / threshold);
+    const double weight = strength * scale(kernel, h) / threshold;
+    if (!(std::abs(weight) < 1e30))
+      params.fail("strength", fmt::format("atom {} (the first is 0): its field is {:.0e} times the "
+                                          "threshold, but 1e30 is the most",
+                                          i, std::abs(weight)));
+    atoms.emplace_back(centres[i], h, weight);
     if (!colors.empty()) kept.push_back(pick(colors, i));
   }
   return {Field(kernel, std::move(atoms)), std::move(kept)};

@@ -2,11 +2,12 @@
 // Kernels: how the field of an atom falls off, as functions of q = r^2 / h^2, the squared distance
 // from the atom's centre over its squared support radius.
 //
-// A kernel is a type with functions of q >= 0: value K, slope K', curvature K'' and third
-// derivative. All that the proofs elsewhere ask of it: on [0, 1] K falls, is convex and at most 1;
-// from q = 1 on it is zero. Then over any [q0, q1] K lies between a tangent and the secant, and F
-// is continuous.
-// A further kernel is such a type, a name in kKernels and a case in withKernel.
+// A kernel is a type with the value K, the slope K' and the curvature K'' as functions of q >= 0,
+// for plain numbers and for lanes, and the constants that Power explains. One that is no power of 1
+// - q has a Taylor series too, see Gaussian. All that the proofs elsewhere ask of it: on [0, 1] K
+// falls, is convex and at most 1, and K'' falls; from q = 1 on K is zero. Then over any [q0, q1] K
+// lies between a tangent and the secant, and F is continuous. A further kernel is such a type, a
+// name in kKernels and a case in withKernel.
 
 #include <array>
 #include <cmath>
@@ -45,6 +46,7 @@ V power(V a) {
 template <int N>
 struct Power {
   static constexpr int kExponent = N;
+  // Which powers of q make up K along a ray (see Chord).
   static constexpr bool kCubic = N == 3, kQuadratic = N == 2, kLinear = false;
   static constexpr int kRounding = 8;  // relative error of a value, in epsilons
   // |second derivative of K(|x|^2 / h^2)| in any direction is at most kBend / h^2; the first jumps

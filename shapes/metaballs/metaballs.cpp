@@ -12,6 +12,7 @@
 #include "shapes/metaballs/roots.h"
 
 namespace pbrt::metaballs {
+
 class Metaballs final : public Shape, private SurfaceColor {
  public:
   explicit Metaballs(Params& params) : Metaballs(readInput(params)) {

@@ -53,7 +53,7 @@ class Search {
   double tolerance_;   // a suspect as short as this is a touch, if only rounding is left
   double acceptable_;  // a certain zero is known well enough
   double
-      startsUntil_;  // from the ray's start to here it is on the surface, for all double can tell
+      startsUntil_;  // from its start to here the ray is on the surface, for all that double tells
   Chord<K, Floats> floats_;
   bool hasDoubles_ = false;
   union {

@@ -2,6 +2,7 @@
 
 #include "core/scene/render.h"
 
+#include "core/base/rng.h"
 #include "tests/scenes.h"
 
 namespace pbrt {
@@ -69,6 +70,31 @@ TEST_P(SameBits, WhenTheSamplesComeInSeveralPasses) {
 INSTANTIATE_TEST_SUITE_P(Samplers, SameBits,
                          testing::Values("random", "stratified", "lowdiscrepancy", "bestcandidate",
                                          "halton"));
+
+// Of so many atoms that several threads split the space around them.
+TEST(Render, IsTheSameForAnyNumberOfThreadsThatBuild) {
+  Rng rng(5);
+  std::string atoms;
+  for (int i = 0; i < 60000; ++i) atoms += std::to_string(4 * rng.uniform() - 2) + ' ';
+  const auto picture = [&](int threads) {
+    BuildOptions options;
+    options.threads = threads;
+    return test::renderText(
+        "LookAt 2 3 7  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"
+        "Film \"image\" \"integer xresolution\" 40 \"integer yresolution\" 40\n"
+        "Sampler \"random\" \"integer pixelsamples\" 1 Integrator \"directlighting\"\n"
+        "WorldBegin AreaLightSource \"diffuse\" Shape \"metaballs\" \"float radius\" 0.1\n"
+        "\"point P\" [1 1.5 2] \"float strength\" 1 \"float threshold\" 0.2 \"string kernel\" "
+        "\"wyvill\"\n"
+        "Shape \"metaballs\" \"float radius\" 0.2 \"string kernel\" \"wyvill\"\n"
+        "\"float threshold\" 0.4 \"point P\" [" +
+            atoms + "] WorldEnd",
+        threads, options);
+  };
+  const Image one = picture(1);
+  EXPECT_GT(test::mean(one, "R"), 0.01);
+  EXPECT_EQ(one.channels, picture(3).channels);
+}
 
 TEST(Render, AnotherSeedGivesAnotherPicture) {
   const std::string scene = everything("random", "whitted");

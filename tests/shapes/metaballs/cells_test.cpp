@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/base/parallel.h"
 #include "shapes/metaballs/roots.h"
 #include "tests/shapes/metaballs/clouds.h"
 
@@ -80,6 +81,23 @@ TEST(MetaballCells, AreNoneWhereThereIsNoSurface) {
   EXPECT_TRUE(Cells(Field(Kernel::blob, {{{0, 0, 0}, 1, -5}})).cells().empty());
   EXPECT_TRUE(
       Cells(Field(Kernel::blob, {{{0, 0, 0}, 1, 0.9}, {{5, 0, 0}, 1, 0.9}})).cells().empty());
+}
+
+// Of so many atoms that the threads share the work.
+TEST(MetaballCells, AreTheSameForAnyNumberOfThreads) {
+  const Field field = cloud(40000, Kernel::wyvill, 0.1, 1, 11);
+  const auto made = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return Cells(field);
+  };
+  const Cells one = made(1), three = made(3);
+  ASSERT_EQ(one.cells().size(), three.cells().size());
+  ASSERT_GT(one.cells().size(), 10000U);
+  for (std::size_t i = 0; i < one.cells().size(); ++i) {
+    const Cell &a = one.cells()[i], &b = three.cells()[i];
+    ASSERT_TRUE(a.box.lo == b.box.lo && a.box.hi == b.box.hi) << i;
+    ASSERT_TRUE(std::ranges::equal(one.atoms(a), three.atoms(b))) << i;
+  }
 }
 
 // Cells do not fill the inside of a dense set.
