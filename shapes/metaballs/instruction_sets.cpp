@@ -2,7 +2,7 @@
 
 namespace pbrt::metaballs {
 
-namespace portable {
+inline namespace portable {
 extern const Loops kLoops;
 }
 #ifdef PBRT_X86

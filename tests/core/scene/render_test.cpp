@@ -76,20 +76,21 @@ TEST(Render, IsTheSameForAnyNumberOfThreadsThatBuild) {
   Rng rng(5);
   std::string atoms;
   for (int i = 0; i < 60000; ++i) atoms += std::to_string(4 * rng.uniform() - 2) + ' ';
+  const std::string scene = R"(
+    LookAt 2 3 7  0 0 0  0 1 0
+    Camera "perspective" "float fov" 40
+    Film "image" "integer xresolution" 60 "integer yresolution" 60
+    Sampler "random" "integer pixelsamples" 1
+    Integrator "whitted"
+    WorldBegin
+    LightSource "point" "rgb I" [99 99 99] "point from" [2 3 4]
+    Shape "metaballs" "string kernel" "wyvill" "float radius" 0.2 "float threshold" 1.5
+      "point P" [)" + atoms +
+                            "] WorldEnd";
   const auto picture = [&](int threads) {
     BuildOptions options;
     options.threads = threads;
-    return test::renderText(
-        "LookAt 2 3 7  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 40\n"
-        "Film \"image\" \"integer xresolution\" 40 \"integer yresolution\" 40\n"
-        "Sampler \"random\" \"integer pixelsamples\" 1 Integrator \"directlighting\"\n"
-        "WorldBegin AreaLightSource \"diffuse\" Shape \"metaballs\" \"float radius\" 0.1\n"
-        "\"point P\" [1 1.5 2] \"float strength\" 1 \"float threshold\" 0.2 \"string kernel\" "
-        "\"wyvill\"\n"
-        "Shape \"metaballs\" \"float radius\" 0.2 \"string kernel\" \"wyvill\"\n"
-        "\"float threshold\" 0.4 \"point P\" [" +
-            atoms + "] WorldEnd",
-        threads, options);
+    return test::renderText(scene, threads, options);
   };
   const Image one = picture(1);
   EXPECT_GT(test::mean(one, "R"), 0.01);
