@@ -127,8 +127,9 @@ class Subtree {
   }
 
   const Field& field_;
-  std::vector<std::uint8_t> masks_;           // which octants an atom reaches
-  std::deque<std::array<Numbers, 8>> lists_;  // of the octants in work, by depth
+  std::vector<std::uint8_t> masks_;  // which octants an atom reaches
+  // Of the octants in work, by depth. They grow and are not cut: their length is counted apart.
+  std::deque<std::array<Numbers, kLanes>> lists_;
   std::size_t depth_ = 0;
 };
 
@@ -140,26 +141,26 @@ void Subtree::children(const Bounds3& box, AtomList list, float smallestRadius, 
   const bool last = smallEnough(octantOf(box, 0), list.size(), smallestRadius);
   const unsigned undecided = bounds(octants, list, last).undecided;
   if (lists_.size() == depth_) lists_.emplace_back();
-  std::array<Numbers, 8>& lists = lists_[depth_++];
-  std::array<float, 8> smallest;
-  smallest.fill(kInfinity);
+  std::array<Numbers, kLanes>& lists = lists_[depth_++];
+  std::array<std::size_t, kLanes> count{};
   for (int lane = 0; lane < kLanes; ++lane) {
     if (!(undecided >> lane & 1)) continue;
+    Numbers& its = lists[lane];
     std::size_t n = 0;
-    for (std::size_t i = 0; i < list.size(); ++i) n += masks_[i] >> lane & 1;
-    lists[lane].resize(n + 1);
+    for (const std::uint8_t mask : masks_) n += mask >> lane & 1;
+    if (its.size() <= n) its.resize(n + 1);
     n = 0;
     for (std::size_t i = 0; i < list.size(); ++i) {  // without branches, which would be guesses
-      const bool is = masks_[i] >> lane & 1;
-      const float radius = is ? field_.atoms()[list[i]].radius : kInfinity;
-      smallest[lane] = std::min(smallest[lane], radius);
-      lists[lane][n] = list[i];
-      n += is;
+      its[n] = list[i];
+      n += masks_[i] >> lane & 1;
     }
-    lists[lane].resize(n);
+    count[lane] = n;
   }
-  for (int lane = 0; lane < kLanes; ++lane)
-    if (undecided >> lane & 1) child(octantOf(box, lane), lists[lane], smallest[lane]);
+  for (int lane = 0; lane < kLanes; ++lane) {
+    if (!(undecided >> lane & 1)) continue;
+    const AtomList its(lists[lane].data(), count[lane]);
+    child(octantOf(box, lane), its, field_.smallestRadius(its));
+  }
   --depth_;
 }
 

@@ -77,7 +77,16 @@ Interval boundAs(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& 
 Field::Field(Kernel kernel, std::vector<Atom> atoms)
     : kernel_(kernel),
       atoms_(std::move(atoms)),
-      carves_(std::ranges::any_of(atoms_, [](const Atom& a) { return a.weight < 0; })) {}
+      carves_(std::ranges::any_of(atoms_, [](const Atom& a) { return a.weight < 0; })),
+      alike_(std::ranges::all_of(atoms_,
+                                 [&](const Atom& a) { return a.radius == atoms_[0].radius; })) {}
+
+float Field::smallestRadius(AtomList list) const {
+  if (alike_) return atoms_.empty() ? kInfinity : atoms_[0].radius;
+  float smallest = kInfinity;
+  for (const std::uint32_t j : list) smallest = std::min(smallest, atoms_[j].radius);
+  return smallest;
+}
 
 Interval Field::bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const {
   return withKernel(kernel_, [&]<class K>(K) { return boundAs<K>(lo, hi, atoms_, list); });

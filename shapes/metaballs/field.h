@@ -60,6 +60,7 @@ class Field {
   const std::vector<Atom>& atoms() const { return atoms_; }
   // Whether some weight is negative.
   bool carves() const { return carves_; }
+  float smallestRadius(AtomList list) const;
 
   // All that follow take the atoms that reach the place in question; `list` may name others too.
 
@@ -72,6 +73,7 @@ class Field {
   Kernel kernel_;
   std::vector<Atom> atoms_;
   bool carves_ = false;
+  bool alike_ = true;  // all radii are equal
 };
 
 }  // namespace pbrt::metaballs

@@ -97,8 +97,8 @@ void trace(benchmark::State& state) {
   state.counters["cells"] = shape.primitives();
   state.counters["atoms/cell"] = shape.atomsPerCell();
   if (!Occlusion) {
-    state.counters["intervals"] = perRay(shape.effort.floats);
-    state.counters["points"] = perRay(shape.effort.doubles);
+    state.counters["looks in float"] = perRay(shape.effort.floats);
+    state.counters["in double"] = perRay(shape.effort.doubles);
   }
 }
 
