@@ -2,7 +2,6 @@
 // Runs the pbrt command as a user does, in a folder of its own.
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <cstdlib>

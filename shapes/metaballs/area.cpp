@@ -252,7 +252,8 @@ AreaSample PatchSampler::sample(const DPoint3& from, Point2 u) const {
   auto tiles = static_cast<unsigned>(patch.tiles);
   for (int skip = static_cast<int>(y); skip > 0; --skip) tiles &= tiles - 1;
   const int tile = std::countr_zero(tiles);
-  const DPoint3 onFace = patch.onFace(tile % kTiles + restX, tile / kTiles + (y - std::floor(y)));
+  const int column = tile % kTiles, row = tile / kTiles;
+  const DPoint3 onFace = patch.onFace(column + restX, row + (y - std::floor(y)));
 
   std::array<DPoint3, kMostCrossings> crossings;
   std::uint32_t count = 0;

@@ -45,7 +45,7 @@ struct AtomLanes {
  private:
   // Centre and radius of two atoms.
   static Floats rows(const Atom* a, const Atom* b) {
-    typedef float Four __attribute__((vector_size(16)));
+    using Four __attribute__((vector_size(16))) = float;
     Four low, high;
     std::memcpy(&low, &a->centre, sizeof(Four));
     std::memcpy(&high, &b->centre, sizeof(Four));

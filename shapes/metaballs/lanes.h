@@ -13,8 +13,8 @@
 namespace pbrt::metaballs {
 
 inline constexpr int kLanes = 8;
-typedef float Floats __attribute__((vector_size(kLanes * sizeof(float))));
-typedef double Doubles __attribute__((vector_size(kLanes * sizeof(double))));
+using Floats __attribute__((vector_size(kLanes * sizeof(float)))) = float;
+using Doubles __attribute__((vector_size(kLanes * sizeof(double)))) = double;
 
 inline namespace PBRT_LANES {
 

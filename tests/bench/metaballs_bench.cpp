@@ -1,6 +1,6 @@
 // How fast rays meet metaballs: through the ray tree and the plug-in's shape, one ray at a time.
-// Counters: rays per second, cells, and per ray the evaluations of the field over an interval and
-// at a point, counted over all cells whose box the ray meets up to its first crossing.
+// Counters: rays per second, cells, and per ray the looks at the field in float and in double, over
+// all cells whose box the ray meets up to its first crossing.
 
 #include <benchmark/benchmark.h>
 

@@ -11,7 +11,7 @@ namespace pbrt::particles {
 
 enum class Quantity : std::uint8_t { position, radius, color, velocity, strength };
 
-constexpr std::size_t components(Quantity q) {
+constexpr std::uint8_t components(Quantity q) {
   return q == Quantity::radius || q == Quantity::strength ? 1 : 3;
 }
 

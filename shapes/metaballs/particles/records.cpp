@@ -9,7 +9,7 @@ namespace {
 template <class Use>
 auto withType(NumberType type, Use use) {
   using enum NumberType;
-  switch (type) {
+  switch (type) {  // NOLINT(bugprone-branch-clone): each branch has a type of its own
     case int8:
       return use(std::int8_t());
     case uint8:

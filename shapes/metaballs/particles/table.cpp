@@ -127,7 +127,8 @@ void TableReader::readRow(std::size_t row) {
   for (std::size_t i = 0; i < columns_.size(); ++i) {
     if (i > 0) {
       if (p == end)
-        input_.failAtText({end, 0}, fmt::format("only {} columns of {}", i, columns_.size()));
+        input_.failAtText(row_.substr(row_.size()),
+                          fmt::format("only {} columns of {}", i, columns_.size()));
       if (separator_ != ' ' && *p != separator_)
         input_.failAtText({p, end}, fmt::format("column {} should have ended before", i));
       if (separator_ != ' ') p = skipBlanks(p + 1);
@@ -190,10 +191,12 @@ bool isRaw(const Input& input) {
   const auto isControl = [](char c) { return (c >= 0 && c < ' ' && !isSpace(c)) || c == 0x7F; };
   const auto control = std::find_if(beginning.begin(), beginning.end(), isControl);
   if (control == beginning.end()) return false;
-  // Of the bytes of floats about 2 in 5 look like text, or fewer.
-  const auto readable = std::count_if(beginning.begin(), beginning.end(),
-                                      [&](char c) { return c > 0 && !isControl(c); });
-  if (4 * static_cast<std::size_t>(readable) > 3 * beginning.size())
+  // Tables are nearly all digits and separators. Of the bytes of floats few are, even where most
+  // happen to be letters, as for coordinates near a million.
+  const auto tabular = std::ranges::count_if(beginning, [](char c) {
+    return std::string_view("0123456789+-.eE,; \t\r\n").find(c) != std::string_view::npos;
+  });
+  if (4 * static_cast<std::size_t>(tabular) > 3 * beginning.size())
     input.failAtByte(&*control, "is text but for this byte; is it damaged?");
   return true;
 }

@@ -25,7 +25,7 @@ void add(Bits& bits, const Floats& lanes) {
 // Every set's answer is that of the portable one, which comes back.
 template <class Answer>
 Bits sameOnAll(const Answer& answer) {
-  const Bits first = answer(*allLoops()[0]);
+  Bits first = answer(*allLoops()[0]);
   for (std::size_t i = 1; i < allLoops().size(); ++i)
     EXPECT_EQ(answer(*allLoops()[i]), first) << "instruction set " << i;
   return first;

@@ -187,6 +187,14 @@ TEST(Raw, FloatsAndNotText) {
   EXPECT_THAT(complaint("a.xyz", nan), HasSubstr("particle 10 "));
 }
 
+// The bytes of numbers just above a million are letters: "Pt$I".
+TEST(Raw, FloatsThatLookLikeLetters) {
+  Particles p;
+  p.positions.emplace_back(1e6F);
+  for (int i = 0; i < 1000; ++i) p.positions.emplace_back(1e6F + 2 + 0.25F * Vec3(i % 16, i % 7, 3));
+  EXPECT_EQ(readParticles("a.xyz", test::raw(p)).positions, p.positions);
+}
+
 TEST(Raw, TextWithADamagedByteIsRefused) {
   std::string text = "1 2 3\n4 5 6\n7 8 9\n10 11 12\n";
   while (text.size() % 12) text += ' ';
