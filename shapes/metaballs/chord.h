@@ -47,9 +47,10 @@ inline Segment clip(const ObjectRay& ray, const DPoint3& lo, const DPoint3& hi) 
   piece.u = ray.d / piece.speed;
   piece.half = 0.5 * (t1 - t0) * piece.speed;
   piece.starts = t0 == ray.tMin;
-  // o + t d is rounded twice in each coordinate, t once; a factor of two to spare.
-  const DVec3 reach = glm::abs(ray.o) + std::abs(piece.middle) * glm::abs(ray.d);
-  piece.error = 4 * std::numeric_limits<double>::epsilon() * (reach.x + reach.y + reach.z);
+  // In each coordinate t d and its sum with o are rounded, by half an epsilon of the result; a factor
+  // of two to spare.
+  const DVec3 rounded = std::abs(piece.middle) * glm::abs(ray.d) + glm::abs(piece.o);
+  piece.error = std::numeric_limits<double>::epsilon() * (rounded.x + rounded.y + rounded.z);
   if (!(piece.error < kInfinity)) piece.half = -1;
   return piece;
 }

@@ -9,8 +9,8 @@ namespace {
 template <class Use>
 auto withType(NumberType type, Use use) {
   using enum NumberType;
-  switch (type) {  // NOLINT(bugprone-branch-clone): each branch has a type of its own
-    case int8:
+  switch (type) {
+    case int8:  // NOLINT(bugprone-branch-clone): each branch has a type of its own
       return use(std::int8_t());
     case uint8:
       return use(std::uint8_t());
