@@ -129,7 +129,7 @@ void PlyReader::readHeader() {
 
 // Binary data have no lines.
 void PlyReader::fail(const char* at, const std::string& message) const {
-  if (ascii_) input_.failAtText({at, 0}, message);
+  if (ascii_) input_.failAtText({at, at}, message);
   input_.failAtByte(at, message);
 }
 

@@ -38,7 +38,7 @@ bool Scanner::atEnd() {
 }
 
 std::string_view Scanner::word() {
-  if (atEnd()) fail({p_, 0}, "the file ends here, too early");
+  if (atEnd()) fail({p_, p_}, "the file ends here, too early");
   const char* begin = p_;
   while (p_ != end_ && !isSpace(*p_)) ++p_;
   return {begin, p_};

@@ -93,7 +93,7 @@ void VtkReader::readArray(Type type, std::size_t tuples, std::size_t numbers,
         fmt::format("{} times {} numbers should follow, but {} bytes are left", tuples, numbers,
                     scanner_.left());
     if (binary_) input_.failAtByte(scanner_.position(), message);
-    scanner_.fail({scanner_.position(), 0}, message);
+    scanner_.fail({scanner_.position(), scanner_.position()}, message);
   }
   if (numbers == 0) return;
   std::vector<Field> fields;

@@ -109,7 +109,7 @@ TEST_P(Extreme, SurfaceIsWithinItsError) {
     const bool isNeck = field.atoms().size() == 2;
     const Made made(field, isNeck ? thresholdFor(field.atoms()[0].weight) : 1);
     Random random(6);
-    for (int i = 0; i < static_cast<int>(20 + 200 * GetParam().share); ++i) {
+    for (int i = 0; i < static_cast<int>(100 + 200 * GetParam().share); ++i) {
       const ObjectRay ray = GetParam().ray(made.subject, random);
       const auto hit = made.hit(ray);
       if (!hit) continue;

@@ -191,7 +191,8 @@ TEST(Raw, FloatsAndNotText) {
 TEST(Raw, FloatsThatLookLikeLetters) {
   Particles p;
   p.positions.emplace_back(1e6F);
-  for (int i = 0; i < 1000; ++i) p.positions.emplace_back(1e6F + 2 + 0.25F * Vec3(i % 16, i % 7, 3));
+  for (int i = 0; i < 1000; ++i)
+    p.positions.emplace_back(1e6F + 2 + 0.25F * Vec3(i % 16, i % 7, 3));
   EXPECT_EQ(readParticles("a.xyz", test::raw(p)).positions, p.positions);
 }
 
