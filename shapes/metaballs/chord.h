@@ -47,8 +47,8 @@ inline Segment clip(const ObjectRay& ray, const DPoint3& lo, const DPoint3& hi) 
   piece.u = ray.d / piece.speed;
   piece.half = 0.5 * (t1 - t0) * piece.speed;
   piece.starts = t0 == ray.tMin;
-  // In each coordinate t d and its sum with o are rounded, by half an epsilon of the result; a factor
-  // of two to spare.
+  // In each coordinate t d and its sum with o are rounded, by half an epsilon of the result; a
+  // factor of two to spare.
   const DVec3 rounded = std::abs(piece.middle) * glm::abs(ray.d) + glm::abs(piece.o);
   piece.error = std::numeric_limits<double>::epsilon() * (rounded.x + rounded.y + rounded.z);
   if (!(piece.error < kInfinity)) piece.half = -1;
