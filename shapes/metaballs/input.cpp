@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <mutex>
-
 #include "core/base/parallel.h"
 #include "shapes/metaballs/particles/particles.h"
 

@@ -6,7 +6,7 @@
 
 #include "core/base/rng.h"
 #include "core/scene/accel.h"
-#include "shapes/metaballs/roots.h"
+#include "tests/bench/cell_shape.h"
 
 namespace pbrt::metaballs {
 namespace {
@@ -24,38 +24,6 @@ Field ballOfAtoms(int count, Kernel kernel) {
   }
   return {kernel, atoms};
 }
-
-// The part of the plug-in that rays see.
-class CellShape final : public Shape {
- public:
-  explicit CellShape(const Field& field) : field_(field), cells_(field) {}
-  std::uint32_t primitives() const override {
-    return static_cast<std::uint32_t>(cells_.cells().size());
-  }
-  Bounds3 bounds(std::uint32_t i) const override { return Cells::bounds(cells_.cells()[i]); }
-  std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t i) const override {
-    const Cell& cell = cells_.cells()[i];
-    const auto t = firstCrossing(field_, cell, cells_.atoms(cell), ray, &effort);
-    if (!t || static_cast<float>(*t) > ray.tMax) return {};
-    return ShapeHit{static_cast<float>(*t), 0, 0, i};
-  }
-  bool occluded(const ObjectRay& ray, std::uint32_t i) const override {
-    const Cell& cell = cells_.cells()[i];
-    return crosses(field_, cell, cells_.atoms(cell), ray);
-  }
-  SurfacePoint surface(const ObjectRay&, const ShapeHit&) const override { return {}; }
-  double atomsPerCell() const {
-    double sum = 0;
-    for (const Cell& cell : cells_.cells()) sum += cell.count;
-    return sum / static_cast<double>(cells_.cells().size());
-  }
-
-  mutable Effort effort;
-
- private:
-  const Field& field_;
-  Cells cells_;
-};
 
 // Rays from all around towards points of the ball that the atoms fill.
 std::vector<Ray> someRays(float extent) {
@@ -78,7 +46,8 @@ template <bool Occlusion>
 void trace(benchmark::State& state) {
   const int count = static_cast<int>(state.range(0));
   const Field field = ballOfAtoms(count, static_cast<Kernel>(state.range(1)));
-  const CellShape shape(field);
+  Effort effort;
+  const bench::CellShape shape(field, &effort);
   const AccelDevice device(1);
   Accel tree(device);
   tree.add(shape, Transform());
@@ -97,8 +66,8 @@ void trace(benchmark::State& state) {
   state.counters["cells"] = shape.primitives();
   state.counters["atoms/cell"] = shape.atomsPerCell();
   if (!Occlusion) {
-    state.counters["looks in float"] = perRay(shape.effort.floats);
-    state.counters["in double"] = perRay(shape.effort.doubles);
+    state.counters["looks in float"] = perRay(effort.floats);
+    state.counters["in double"] = perRay(effort.doubles);
   }
 }
 

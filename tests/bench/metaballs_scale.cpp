@@ -8,25 +8,18 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
 
 #include "core/base/parallel.h"
 #include "core/base/rng.h"
 #include "core/scene/accel.h"
-#include "shapes/metaballs/roots.h"
+#include "tests/bench/cell_shape.h"
+#include "tests/bench/measure.h"
 
 namespace pbrt::metaballs {
 namespace {
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-double residentMegabytes() {
-  std::ifstream file("/proc/self/statm");
-  double pages = 0;
-  file >> pages >> pages;
-  return pages * 4096 / 1e6;
 }
 
 // n^3 atoms about (0, 0, 0), spacing 1.
@@ -46,37 +39,12 @@ Field jitteredGrid(int n) {
   return {Kernel::poly6, std::move(atoms)};
 }
 
-class CellShape final : public Shape {
- public:
-  explicit CellShape(const Field& field) : field_(field), cells_(field) {}
-  std::uint32_t primitives() const override {
-    return static_cast<std::uint32_t>(cells_.cells().size());
-  }
-  Bounds3 bounds(std::uint32_t i) const override { return cells_.bounds(cells_.cells()[i]); }
-  std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t i) const override {
-    const Cell& cell = cells_.cells()[i];
-    const auto t = firstCrossing(field_, cell, cells_.atoms(cell), ray);
-    if (!t || static_cast<float>(*t) > ray.tMax) return {};
-    return ShapeHit{static_cast<float>(*t), 0, 0, i};
-  }
-  bool occluded(const ObjectRay& ray, std::uint32_t i) const override {
-    const Cell& cell = cells_.cells()[i];
-    return crosses(field_, cell, cells_.atoms(cell), ray);
-  }
-  SurfacePoint surface(const ObjectRay&, const ShapeHit&) const override { return {}; }
-  const Cells& cells() const { return cells_; }
-
- private:
-  const Field& field_;
-  Cells cells_;
-};
-
 struct Traced {
   double seconds = 0;
   std::size_t rays = 0, hits = 0, lit = 0;
 };
 
-Traced trace(const Accel& tree, const Field& field, const CellShape& shape, float extent) {
+Traced trace(const Accel& tree, const Field& field, const bench::CellShape& shape, float extent) {
   constexpr int size = 512;
   const Point3 eye(0.9F * extent, 1.3F * extent, 2.6F * extent),
       light(3 * extent, 4 * extent, extent);
@@ -121,26 +89,24 @@ Traced trace(const Accel& tree, const Field& field, const CellShape& shape, floa
 void run(std::size_t atoms, int threads) {
   const int n = static_cast<int>(std::lround(std::cbrt(static_cast<double>(atoms))));
   const Field field = jitteredGrid(n);
-  const double before = residentMegabytes(), start = now();
-  const CellShape shape(field);
+  const double before = pbrt::bench::residentBytes() / 1e6, start = now();
+  const bench::CellShape shape(field);
   const double cells = now();
   const AccelDevice device(threads);
   Accel tree(device);
   tree.add(shape, Transform());
   tree.build();
-  const double built = now(), after = residentMegabytes();
+  const double built = now(), after = pbrt::bench::residentBytes() / 1e6;
   std::vector<Traced> runs;
   for (int i = 0; i < 3; ++i) runs.push_back(trace(tree, field, shape, static_cast<float>(n)));
   std::ranges::sort(runs, {}, &Traced::seconds);
   const Traced& t = runs[1];
-  double listed = 0;
-  for (const Cell& cell : shape.cells().cells()) listed += cell.count;
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   std::printf("| %zu | %zu | %.1f | %.3f | %.3f | %.0f | %.0f | %.3f | %.2f | %zu | %zu |\n",
-              field.atoms().size(), shape.cells().cells().size(),
-              listed / static_cast<double>(shape.cells().cells().size()), cells - start,
-              built - cells, after - before, static_cast<double>(usage.ru_maxrss) / 1e3, t.seconds,
+              field.atoms().size(), shape.cells().cells().size(), shape.atomsPerCell(),
+              cells - start, built - cells, after - before,
+              static_cast<double>(usage.ru_maxrss) / 1e3, t.seconds,
               static_cast<double>(t.rays) / t.seconds / 1e6, t.hits, t.lit);
   std::fflush(stdout);
 }

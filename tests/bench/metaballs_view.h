@@ -1,10 +1,10 @@
 #pragma once
-// Sets of atoms, the rays of a camera that sees them, and their cells as a shape.
+// Sets of atoms, and the rays of a camera that sees them.
 
 #include <string>
 
 #include "core/scene/accel.h"
-#include "shapes/metaballs/roots.h"
+#include "tests/bench/cell_shape.h"
 #include "tests/shapes/metaballs/clouds.h"
 
 namespace pbrt::metaballs::bench {
@@ -71,33 +71,5 @@ inline std::vector<Ray> cameraRays(const Field& field, int resolution) {
 inline ObjectRay inDouble(const Ray& ray) {
   return {DPoint3(ray.o), DVec3(ray.d), ray.tMin, ray.tMax};
 }
-
-// The part of the plug-in that rays see.
-class CellShape final : public Shape {
- public:
-  explicit CellShape(const Field& field) : field_(field), cells_(field) {}
-  std::uint32_t primitives() const override {
-    return static_cast<std::uint32_t>(cells_.cells().size());
-  }
-  Bounds3 bounds(std::uint32_t i) const override { return Cells::bounds(cells_.cells()[i]); }
-  // `tolerance` as in firstCrossing.
-  std::optional<double> crossing(const ObjectRay& ray, std::uint32_t i,
-                                 double tolerance = 0) const {
-    const Cell& cell = cells_.cells()[i];
-    return firstCrossing(field_, cell, cells_.atoms(cell), ray, nullptr, tolerance);
-  }
-  std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t i) const override {
-    const auto t = crossing(ray, i);
-    if (!t || static_cast<float>(*t) > ray.tMax) return {};
-    return ShapeHit{static_cast<float>(*t), 0, 0, i};
-  }
-  SurfacePoint surface(const ObjectRay&, const ShapeHit&) const override { return {}; }
-
-  const Cells& cells() const { return cells_; }
-
- private:
-  const Field& field_;
-  Cells cells_;
-};
 
 }  // namespace pbrt::metaballs::bench
