@@ -22,6 +22,14 @@ Progress::~Progress() {
   thread_.join();
 }
 
+void Progress::begin(double from, double to, std::optional<double> error) {
+  const std::lock_guard lock(mutex_);
+  tilesBefore_ = control_.tilesDone;
+  from_ = from;
+  to_ = to;
+  error_ = error;
+}
+
 void Progress::run() {
   using namespace std::chrono_literals;
   const auto start = std::chrono::steady_clock::now();
@@ -34,12 +42,14 @@ void Progress::run() {
 }
 
 void Progress::show(double seconds, bool last) {
-  const double part = static_cast<double>(control_.tilesDone) / std::max(1, tiles_);
+  const double ofPass =
+      static_cast<double>(control_.tilesDone - tilesBefore_) / std::max(1, tiles_);
+  const double part = from_ + (to_ - from_) * ofPass;
   const double raysPerSecond = static_cast<double>(control_.rays) / std::max(seconds, 1e-6);
   const double remaining = part > 0 ? seconds * (1 - part) / part : 0;
-  const std::string text =
-      fmt::format("{:3.0f} %  {:.1f} s elapsed, {:.1f} s remaining, {:.2f} Mrays/s", 100 * part,
-                  seconds, remaining, raysPerSecond / 1e6);
+  std::string text = fmt::format("{:3.0f} %  {:.1f} s elapsed, {:.1f} s remaining, {:.2f} Mrays/s",
+                                 100 * part, seconds, remaining, raysPerSecond / 1e6);
+  if (error_) text += fmt::format(", error about {:.2g}", *error_);
   if (terminal_) {
     constexpr int kWidth = 30;
     const int filled = static_cast<int>(kWidth * part);

@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "core/scene/render.h"
@@ -15,6 +16,9 @@ class Progress {
  public:
   Progress(const RenderControl& control, int tiles);
   ~Progress();
+  // A pass over all tiles begins, which takes the render from one part of 1 to another. `error`:
+  // the estimate so far, if there is one.
+  void begin(double from, double to, std::optional<double> error);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -24,6 +28,9 @@ class Progress {
 
   const RenderControl& control_;
   int tiles_;
+  int tilesBefore_ = 0;  // of earlier passes
+  double from_ = 0, to_ = 1;
+  std::optional<double> error_;
   bool terminal_;
   int linesShown_ = 0;
   std::mutex mutex_;

@@ -1,5 +1,6 @@
 #include "core/api/bsdf.h"
 
+#include "core/base/lowdiscrepancy.h"
 #include "core/base/warp.h"
 
 namespace pbrt {
@@ -90,6 +91,21 @@ std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, Point2 u, std::uint8_t wa
   }
   s->pdf /= static_cast<float>(n);
   return s;
+}
+
+Spectrum Bsdf::rho(const Vec3& wo) const {
+  // Points of Hammersley's set, in the middle of their cells: on the edge of the unit square lies
+  // the horizon. A multiple of 2, 3 and 4 shares them out evenly over the lobes.
+  constexpr std::uint32_t kPoints = 24, kHalfCell = 1U << 26U;
+  const Vec3 normal = frame_.fromLocal({0, 0, 1});
+  Spectrum sum(0);
+  for (std::uint32_t i = 0; i < kPoints; ++i) {
+    const Point2 u((static_cast<float>(i) + 0.5F) / kPoints,
+                   uniformFloat(reverseBits(i) + kHalfCell));
+    if (const auto s = sample(wo, u))
+      sum += s->f * (std::abs(glm::dot(s->wi, normal)) * sqr(s->eta) / s->pdf);
+  }
+  return sum / static_cast<float>(kPoints);
 }
 
 }  // namespace pbrt

@@ -78,6 +78,11 @@ class Bsdf {
   // (unless the lobe is specular). Empty: no sample.
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u, std::uint8_t wanted = kAllLobes) const;
 
+  // How much of the light from wo's side is scattered, integral of f(wo, wi) |cos wi| dwi,
+  // estimated from the same few directions every time. Refraction counts as power: without the
+  // factor by which radiance changes with the index.
+  Spectrum rho(const Vec3& wo) const;
+
   const Frame& frame() const { return frame_; }
 
  private:

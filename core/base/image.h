@@ -24,6 +24,8 @@ struct Image {
 
   // The channel of this name, or null.
   const std::vector<float>* channel(std::string_view name) const;
+  // The attribute of this name, if it is a number of any type.
+  double number(std::string_view name, double otherwise) const;
 };
 
 // Writes by the suffix: .exr (float or half channels, all of them, with attributes) or .png

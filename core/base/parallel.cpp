@@ -1,6 +1,7 @@
 #include "core/base/parallel.h"
 
 #include <tbb/global_control.h>
+#include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
 #include <atomic>
@@ -19,6 +20,10 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
   // oneTBB has ordered the bodies before what follows; this says so to ThreadSanitizer, which does
   // not see into it. It orders no two bodies.
   static_cast<void>(ended.load(std::memory_order_acquire));
+}
+
+int defaultThreads() {
+  return tbb::info::default_concurrency();
 }
 
 ThreadLimit::ThreadLimit(int threads) {

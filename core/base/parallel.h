@@ -11,6 +11,9 @@ namespace pbrt {
 // returned. An exception of a body comes out of here; the bodies not yet begun are then skipped.
 void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
 
+// How many threads the process may use.
+int defaultThreads();
+
 // While it lives, no more than this many threads work; 0: as many as the process may use.
 class ThreadLimit {
  public:

@@ -209,7 +209,24 @@ std::string Params::choice(const std::string& name, std::span<const std::string_
                            std::string_view fallback, std::string_view meaning) {
   std::string value =
       text(name, std::string(fallback), fmt::format("{} ({})", meaning, fmt::join(allowed, ", ")));
-  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return value;
+  refuseOthers(name, value, allowed);
+  return value;
+}
+
+std::vector<std::string> Params::choices(const std::string& name,
+                                         std::span<const std::string_view> allowed,
+                                         std::string_view meaning) {
+  declare(name, "string", "-", fmt::format("{} (any of {})", meaning, fmt::join(allowed, ", ")));
+  const Param* p = find(name, kString, "string");
+  if (!p) return {};
+  auto values = std::get<std::vector<std::string>>(p->values);
+  for (const std::string& value : values) refuseOthers(name, value, allowed);
+  return values;
+}
+
+void Params::refuseOthers(const std::string& name, const std::string& value,
+                          std::span<const std::string_view> allowed) const {
+  if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;
   const std::vector<std::string> names(allowed.begin(), allowed.end());
   fail(name, fmt::format("cannot be \"{}\" (it is one of {}){}", value, fmt::join(names, ", "),
                          didYouMean(value, names)));

@@ -59,6 +59,10 @@ class Params {
   std::string text(const std::string& name, const std::string& fallback, std::string_view meaning);
   std::string choice(const std::string& name, std::span<const std::string_view> allowed,
                      std::string_view fallback, std::string_view meaning);
+  // Any number of the allowed names; empty if absent.
+  std::vector<std::string> choices(const std::string& name,
+                                   std::span<const std::string_view> allowed,
+                                   std::string_view meaning);
   // A file to read: relative to the folder of the scene file that names it, or to the working
   // directory if the scene is no file. Empty if absent; one that is not there is an error.
   std::filesystem::path file(const std::string& name, std::string_view meaning);
@@ -113,6 +117,8 @@ class Params {
 
   const Param* find(const std::string& name, std::span<const ParamType> types,
                     std::string_view wanted);
+  void refuseOthers(const std::string& name, const std::string& value,
+                    std::span<const std::string_view> allowed) const;
   void declare(const std::string& name, std::string_view type, std::string fallback,
                std::string_view meaning, std::string_view unit = "");
   template <class V>

@@ -48,11 +48,22 @@ void SceneBuilder::makeCameraAndFilm() {
       film.integer("xresolution", defaults_.resolution.x, 1, kMost, "width in pixels"),
       film.integer("yresolution", defaults_.resolution.y, 1, kMost, "height in pixels"));
   if (options_.quick) resolution = glm::max(resolution / 4, 1);
+  if (options_.width)
+    resolution = {*options_.width,
+                  std::clamp(static_cast<int>(std::lround(static_cast<double>(resolution.y) *
+                                                          *options_.width / resolution.x)),
+                             1, kMost)};
   const Bounds2i crop = cropBounds(film, resolution);
   scene_->outputFile_ = film.text("filename", "pbrt.exr", "where the picture goes");
-  const float scale = film.positive("scale", 1, "factor for every pixel value");
-  const float brightest = film.positive("maxsampleluminance", kInfinity,
-                                        "samples brighter than this are darkened to it");
+  Film::Settings settings;
+  settings.scale = film.positive("scale", 1, "factor for every pixel value");
+  settings.brightest = film.positive("maxsampleluminance", kInfinity,
+                                     "samples brighter than this are darkened to it");
+  for (const std::string& name :
+       film.choices("aov", aovNames(), "what to store beside the picture"))
+    settings.aovs |= *aovByName(name);
+  settings.aovs |= options_.aovs;
+  settings.origin = cameraFromWorld_.inverse().point(DPoint3(0));
   film.flag("premultiplyalpha", true, "of pbrt-v1; pictures here always are premultiplied");
   film.integer("writefrequency", -1, -1, std::numeric_limits<int>::max(),
                "of pbrt-v1; without effect");
@@ -61,17 +72,18 @@ void SceneBuilder::makeCameraAndFilm() {
 
   const Directive& filter = option(filter_, DirectiveKind::PixelFilter, defaults_.filter);
   scene_->filter_ = factory_.make<Filter>(filter.words.at(0), filter.params, filter.where);
-  scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, scale, brightest);
+  scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, settings);
 
   const Directive& sampler = option(sampler_, DirectiveKind::Sampler, defaults_.sampler);
-  Sampler::Setup samplerSetup{options_.seed, options_.samplesPerPixel, resolution};
-  scene_->sampler_ =
-      factory_.make<Sampler>(sampler.words.at(0), sampler.params, sampler.where, samplerSetup);
-  if (options_.quick && !options_.samplesPerPixel) {
-    samplerSetup.samplesPerPixel = std::max(1, scene_->sampler_->samplesPerPixel() / 4);
+  scene_->makeSampler_ = [factory = factory_, sampler, resolution](
+                             std::uint64_t seed, std::optional<int> samplesPerPixel) mutable {
+    return factory.make<Sampler>(sampler.words.at(0), sampler.params, sampler.where,
+                                 {seed, samplesPerPixel, resolution});
+  };
+  scene_->sampler_ = scene_->makeSampler_(options_.seed, options_.samplesPerPixel);
+  if (options_.quick && !options_.samplesPerPixel)
     scene_->sampler_ =
-        factory_.make<Sampler>(sampler.words.at(0), sampler.params, sampler.where, samplerSetup);
-  }
+        scene_->makeSampler(options_.seed, std::max(1, scene_->sampler_->samplesPerPixel() / 4));
 
   const Directive& camera = option(camera_, DirectiveKind::Camera, defaults_.camera);
   const Transform renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();

@@ -6,12 +6,11 @@
 
 namespace pbrt {
 
-Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float scale,
-           float brightest)
+Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings)
     : resolution_(resolution),
       crop_(crop),
-      scale_(scale),
-      brightest_(brightest),
+      scale_(settings.scale),
+      brightest_(settings.brightest),
       radius_(filter.radius()) {
   // Beyond this the table below and the borders of the tiles have no sizes.
   constexpr float kLeast = 1e-3F, kMost = 1e3F;
@@ -26,7 +25,9 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float
   const Point2i reach(glm::ceil(radius_ - 0.5F));
   sampled_ = {crop.lo - reach, crop.hi + reach};
   try {
-    sums_ = {sampled_.width(), sampled_.height(), kTile, std::max({reach.x, reach.y, 0})};
+    const Point2i size(sampled_.width(), sampled_.height());
+    sums_ = {size.x, size.y, kTile, std::max({reach.x, reach.y, 0})};
+    aovs_ = {settings.aovs, size, kTile, settings.origin};
   } catch (const std::exception&) {
     throw Error(
         fmt::format("not enough memory for a film of {} x {} pixels", crop.width(), crop.height()));
@@ -38,6 +39,13 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float
   for (int y = 0; y < kTable; ++y)
     for (int x = 0; x < kTable; ++x)
       table_[y * kTable + x] = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
+
+  // A pixel is sum(w L) / sum(w) over independent samples of variance s^2, n in each pixel:
+  // s^2 sum(w^2) / sum(w)^2 = s^2 / n * integral(w^2) / integral(w)^2, over areas in pixels.
+  double sum = 0, squares = 0;
+  for (const double w : table_) sum += w, squares += w * w;
+  const double cellArea = 4.0 * radius_.x * radius_.y / (kTable * kTable);  // of all quadrants
+  filterNoise_ = squares / (cellArea * sum * sum);
 }
 
 Bounds2i Film::tilePixels(int tile) const {
@@ -48,7 +56,9 @@ Bounds2i Film::tilePixels(int tile) const {
 void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
   Spectrum L = radiance * scale_;
   if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
-  const Point2i origin = sampled_.lo + sums_.corner(tile) - sums_.apron();
+  const Point2i corner = sampled_.lo + sums_.corner(tile), origin = corner - sums_.apron();
+  if (aovs_.stores(kVariance | kSampleCount))
+    aovs_.add(tile, Point2i(glm::floor(film)) - corner, L);
   // Sample and pixel centres in the tile's own pixels, so that truncation rounds down.
   const Point2 p = film - Point2(origin) - 0.5F;
   const int x0 = std::max(0, static_cast<int>(p.x - radius_.x) + (p.x >= radius_.x));
@@ -74,7 +84,11 @@ void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
   }
 }
 
-Image Film::image() const {
+void Film::add(int tile, Point2i pixel, const FirstSurface& surface) {
+  aovs_.add(tile, pixel - (sampled_.lo + sums_.corner(tile)), surface);
+}
+
+Image Film::image(std::uint8_t aovs) const {
   Image image;
   image.window = crop_;
   image.resolution = resolution_;
@@ -106,6 +120,7 @@ Image Film::image() const {
       image.channels[2][i] = static_cast<float>(std::max(0.0, sum.b * scale));
       image.channels[3][i] = static_cast<float>(std::clamp(sum.alpha * scale, 0.0, 1.0));
     }
+  aovs_.appendTo(image, aovs, {crop_.lo - sampled_.lo, crop_.hi - sampled_.lo}, filterNoise_);
   return image;
 }
 

@@ -9,6 +9,7 @@
 #include "core/base/blocked_array.h"
 #include "core/base/image.h"
 #include "core/base/spectrum.h"
+#include "core/scene/aov.h"
 
 namespace pbrt {
 
@@ -21,10 +22,15 @@ class Film {
  public:
   static constexpr int kTile = 32;
 
-  // `crop`: the pixels that are wanted, within [0, resolution). Samples brighter than `brightest`
-  // are darkened to that luminance, then multiplied by `scale`.
-  Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, float scale = 1,
-       float brightest = kInfinity);
+  struct Settings {
+    float scale = 1;              // of all pixel values
+    float brightest = kInfinity;  // samples of more luminance are darkened to it, then scaled
+    std::uint8_t aovs = 0;        // what to store beside the picture
+    DPoint3 origin{0};            // where render space's origin is in the world
+  };
+
+  // `crop`: the pixels that are wanted, within [0, resolution).
+  Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings);
 
   Point2i resolution() const { return resolution_; }
   const Bounds2i& crop() const { return crop_; }
@@ -36,11 +42,19 @@ class Film {
 
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)).
   void add(int tile, Point2 film, const Spectrum& L, float alpha);
+  // Whether add() of what a sample saw first is asked for.
+  bool storesSurfaces() const { return aovs_.stores(kAlbedo | kNormal | kPosition | kDepth); }
+  void add(int tile, Point2i pixel, const FirstSurface& surface);
 
-  // The picture so far: channels R, G, B, A over the crop, premultiplied by alpha as EXR has it.
-  // Pixels without samples are zero; negative values, which only filters with negative lobes make,
-  // are raised to zero.
-  Image image() const;
+  // The variance of a pixel over that of the mean of its own samples: the filter averages over
+  // neighbours, whose errors it thereby correlates. The mean over a block of P pixels has a
+  // variance of sum(Variance / filterNoise) / P^2.
+  double filterNoise() const { return filterNoise_; }
+
+  // The picture so far: channels R, G, B, A over the crop, premultiplied by alpha as EXR has it,
+  // then those of `aovs` that are stored. Pixels without samples are zero; negative values, which
+  // only filters with negative lobes make, are raised to zero.
+  Image image(std::uint8_t aovs = ~std::uint8_t{0}) const;
 
  private:
   struct Sum {
@@ -52,10 +66,12 @@ class Film {
   Point2i resolution_;
   Bounds2i crop_, sampled_;
   float scale_, brightest_;
+  double filterNoise_ = 1;
   Vec2 radius_;
   Vec2 tableScale_;
   std::vector<float> table_;  // filter weights over one quadrant
   BlockedArray<Sum> sums_;    // a block a tile; the apron is what the filter reaches beyond it
+  AovSums aovs_;
 };
 
 }  // namespace pbrt

@@ -7,6 +7,7 @@
 
 #include <array>
 
+#include "core/base/parallel.h"
 #include "core/scene/accel.h"
 
 namespace pbrt {
@@ -89,7 +90,18 @@ struct TileJob {
         }
       }
       film.add(tile, worker.samples[i].film, L, hit.found() ? 1 : 0);
+      if (hit.found() && film.storesSurfaces()) {
+        const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
+        film.add(tile, pixel, firstSurface(camera.ray, hit, worker.scratch));
+        worker.scratch.release();
+      }
     }
+  }
+
+  FirstSurface firstSurface(const RayDifferential& ray, const Hit& hit, Scratch& scratch) const {
+    SurfaceInteraction at = world.surface(ray, hit);
+    const Bsdf bsdf = world.bsdf(at, scratch);
+    return {bsdf.rho(at.wo), at.ns, at.p, glm::distance(ray.o, at.p)};
   }
 };
 
@@ -100,7 +112,7 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
   // A pixel's samples share its area: each stands for 1 / n of it.
   const float scale = 1 / std::sqrt(static_cast<float>(sampler.samplesPerPixel()));
   const TileJob job{*this, world, film, control, scale};
-  const int threads = control.threads > 0 ? control.threads : tbb::info::default_concurrency();
+  const int threads = control.threads > 0 ? control.threads : defaultThreads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler); });

@@ -1,6 +1,7 @@
 #pragma once
 // A scene that is ready to be rendered: owns everything, and answers integrators.
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -54,6 +55,10 @@ class Scene final : public World {
 
   const Integrator& integrator() const { return *integrator_; }
   const Sampler& sampler() const { return *sampler_; }
+  // The same sampler with another seed and number of samples per pixel.
+  std::unique_ptr<Sampler> makeSampler(std::uint64_t seed, int samplesPerPixel) const {
+    return makeSampler_(seed, samplesPerPixel);
+  }
   Film& film() { return *film_; }
   const std::string& outputFile() const { return outputFile_; }
   // What the picture should say about itself: worldToCamera, worldToNDC.
@@ -71,6 +76,7 @@ class Scene final : public World {
   std::unique_ptr<Camera> ownCamera_;
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Sampler> sampler_;
+  std::function<std::unique_ptr<Sampler>(std::uint64_t, std::optional<int>)> makeSampler_;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Film> film_;
   std::string outputFile_;

@@ -46,7 +46,7 @@ class EveryFilter : public testing::TestWithParam<std::string> {};
 // centre.
 TEST_P(EveryFilter, PixelsAreWeightedMeans) {
   const auto filter = test::make<Filter>(GetParam());
-  Film film({70, 45}, {{3, 2}, {67, 41}}, *filter);
+  Film film({70, 45}, {{3, 2}, {67, 41}}, *filter, {});
   const auto samples = randomSamples(film, 40000);
   addAll(film, samples);
   const Image image = film.image();
@@ -70,7 +70,7 @@ TEST_P(EveryFilter, PixelsAreWeightedMeans) {
 
 TEST_P(EveryFilter, AConstantStaysConstant) {
   const auto filter = test::make<Filter>(GetParam());
-  Film film({50, 40}, {{0, 0}, {50, 40}}, *filter);
+  Film film({50, 40}, {{0, 0}, {50, 40}}, *filter, {});
   auto samples = randomSamples(film, 80000);
   for (TakenSample& s : samples) s.L = Spectrum(0.25F, 1, 3), s.alpha = 1;
   addAll(film, samples);
@@ -84,8 +84,8 @@ TEST_P(EveryFilter, AConstantStaysConstant) {
 
 TEST_P(EveryFilter, TheOrderOfTilesDoesNotMatter) {
   const auto filter = test::make<Filter>(GetParam());
-  Film forward({90, 70}, {{0, 0}, {90, 70}}, *filter),
-      backward({90, 70}, {{0, 0}, {90, 70}}, *filter);
+  Film forward({90, 70}, {{0, 0}, {90, 70}}, *filter, {}),
+      backward({90, 70}, {{0, 0}, {90, 70}}, *filter, {});
   const auto samples = randomSamples(forward, 20000);
   for (int pass = 0; pass < forward.tiles(); ++pass)
     for (const TakenSample& s : samples) {
@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(Names, EveryFilter,
 TEST(Film, ABoxSampleCountsInOnePixelOnly) {
   const auto box = test::make<Filter>("box");
   for (const Point2 at : {Point2(1, 1), Point2(1.5F, 1.5F), Point2(1.9999F, 1.0001F)}) {
-    Film film({4, 4}, {{0, 0}, {4, 4}}, *box);
+    Film film({4, 4}, {{0, 0}, {4, 4}}, *box, {});
     film.add(0, at, Spectrum(1), 1);
     const Image image = film.image();
     for (int i = 0; i < 16; ++i) EXPECT_EQ(image.channels[0][i], i == 5 ? 1.F : 0.F) << i;
@@ -111,26 +111,26 @@ TEST(Film, ABoxSampleCountsInOnePixelOnly) {
 
 TEST(Film, SumsStayExactForMillionsOfSamples) {
   const auto box = test::make<Filter>("box");
-  Film film({1, 1}, {{0, 0}, {1, 1}}, *box);
+  Film film({1, 1}, {{0, 0}, {1, 1}}, *box, {});
   for (int i = 0; i < 20'000'000; ++i) film.add(0, {0.5F, 0.5F}, Spectrum(i % 2 ? 0.1F : 0.3F), 1);
   EXPECT_NEAR(film.image().channels[0][0], 0.2F, 1e-7F);
 }
 
 TEST(Film, BrightSamplesAreDarkenedBeforeScaling) {
   const auto box = test::make<Filter>("box");
-  Film film({1, 1}, {{0, 0}, {1, 1}}, *box, 2, 10);
+  Film film({1, 1}, {{0, 0}, {1, 1}}, *box, {.scale = 2, .brightest = 10});
   film.add(0, {0.5F, 0.5F}, Spectrum(1000), 1);
   EXPECT_NEAR(film.image().channels[0][0], 20, 1e-4F);
 }
 
 TEST(Film, AFilterMayNotBeWiderThanMemory) {
   const auto wide = test::make<Filter>("box", {test::number("xwidth", 1e9F)});
-  EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *wide), Error);
+  EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *wide, {}), Error);
 }
 
 TEST(Film, TooLargeAFilmIsAClearError) {
   const auto box = test::make<Filter>("box");
-  EXPECT_THROW(Film({1 << 16, 1 << 16}, {{0, 0}, {1 << 16, 1 << 16}}, *box), Error);
+  EXPECT_THROW(Film({1 << 16, 1 << 16}, {{0, 0}, {1 << 16, 1 << 16}}, *box, {}), Error);
 }
 
 }  // namespace

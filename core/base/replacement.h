@@ -1,0 +1,34 @@
+#pragma once
+// Files that appear whole or not at all.
+
+#include <cstdio>
+#include <filesystem>
+
+namespace pbrt {
+
+// A new file in the folder of `target` that takes the target's place once it is complete, and
+// vanishes if it never is. What fails throws std::exception with the reason alone; the caller names
+// the file.
+class Replacement {
+ public:
+  explicit Replacement(const std::filesystem::path& target);
+  Replacement(const Replacement&) = delete;
+  Replacement& operator=(const Replacement&) = delete;
+  ~Replacement();
+
+  std::FILE* stream() { return stream_; }
+  void commit();
+
+ private:
+  std::filesystem::path target_;
+  std::filesystem::path temporary_;
+  std::FILE* stream_ = nullptr;
+};
+
+// Throws Error, Failure::io, if a file of this name could not be written: ask before long work.
+void checkReplaceable(const std::filesystem::path& file);
+
+// Writes a whole file. Throws Error, Failure::io.
+void writeFile(const std::filesystem::path& file, std::string_view bytes);
+
+}  // namespace pbrt

@@ -1,0 +1,112 @@
+#include "core/scene/aov.h"
+
+#include <array>
+
+namespace pbrt {
+
+namespace {
+
+constexpr std::uint8_t kOfSamples = kVariance | kSampleCount;
+
+constexpr std::array<std::string_view, 6> kNames = {"variance", "albedo", "normal",
+                                                    "position", "depth",  "samples"};
+
+// The cell of a pixel that counts from the first of all.
+template <class T>
+const T& cell(const BlockedArray<T>& sums, Point2i pixel) {
+  const Point2i block = pixel / sums.size(), in = pixel - block * sums.size();
+  return sums.row(block.y * sums.across() + block.x, in.y)[in.x];
+}
+
+// Appends one channel: value(pixel) for each pixel of the window.
+template <class Value>
+void append(Image& image, const std::string& name, const Bounds2i& window, Value value) {
+  std::vector<float> channel;
+  channel.reserve(static_cast<std::size_t>(window.width()) * window.height());
+  for (int y = window.lo.y; y < window.hi.y; ++y)
+    for (int x = window.lo.x; x < window.hi.x; ++x)
+      channel.push_back(static_cast<float>(value(Point2i(x, y))));
+  image.names.push_back(name);
+  image.channels.push_back(std::move(channel));
+}
+
+// Three channels, `layer`.R or the like.
+template <class Value>
+void append(Image& image, std::string_view layer, std::string_view components,
+            const Bounds2i& window, Value value) {
+  for (int c = 0; c < 3; ++c)
+    append(image, std::string(layer) + '.' + components[c], window,
+           [&](Point2i pixel) { return value(pixel, c); });
+}
+
+}  // namespace
+
+std::span<const std::string_view> aovNames() {
+  return kNames;
+}
+
+std::optional<std::uint8_t> aovByName(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) return {};
+  return static_cast<std::uint8_t>(1U << (found - kNames.begin()));
+}
+
+AovSums::AovSums(std::uint8_t stored, Point2i size, int tile, const DPoint3& origin)
+    : stored_(stored), origin_(origin) {
+  if (stores(kOfSamples)) moments_ = {size.x, size.y, tile};
+  if (stores(static_cast<std::uint8_t>(~kOfSamples))) surfaces_ = {size.x, size.y, tile};
+}
+
+void AovSums::add(int tile, Point2i pixel, const Spectrum& L) {
+  Moments& m = moments_.row(tile, pixel.y)[pixel.x];
+  const glm::dvec3 value(L);
+  m.sum += value;
+  m.squares += value * value;
+  ++m.count;
+}
+
+void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {
+  Surfaces& s = surfaces_.row(tile, pixel.y)[pixel.x];
+  s.albedo += surface.albedo;
+  s.n += surface.n;
+  s.p += surface.p;
+  s.depth += surface.depth;
+  ++s.count;
+}
+
+void AovSums::appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window,
+                       double filterNoise) const {
+  wanted &= stored_;
+  const auto mean = [](double sum, double count) { return count > 0 ? sum / count : 0; };
+  if (wanted & kVariance)
+    append(image, "Variance", "RGB", window, [&](Point2i pixel, int c) {
+      const Moments& m = cell(moments_, pixel);
+      if (m.count < 2) return 0.0;
+      const double ofSamples = (m.squares[c] - m.sum[c] * m.sum[c] / m.count) / (m.count - 1);
+      return std::max(0.0, ofSamples) / m.count * filterNoise;
+    });
+  if (wanted & kSampleCount)
+    append(image, "samples", window, [&](Point2i pixel) { return cell(moments_, pixel).count; });
+  if (wanted & kAlbedo)
+    append(image, "Albedo", "RGB", window, [&](Point2i pixel, int c) {
+      const Surfaces& s = cell(surfaces_, pixel);
+      return mean(s.albedo[c], s.count);
+    });
+  if (wanted & kNormal)
+    append(image, "N", "XYZ", window, [&](Point2i pixel, int c) {
+      const Surfaces& s = cell(surfaces_, pixel);
+      return mean(s.n[c], s.count);
+    });
+  if (wanted & kPosition)
+    append(image, "P", "XYZ", window, [&](Point2i pixel, int c) {
+      const Surfaces& s = cell(surfaces_, pixel);
+      return s.count > 0 ? origin_[c] + s.p[c] / s.count : 0;
+    });
+  if (wanted & kDepth)
+    append(image, "Z", window, [&](Point2i pixel) {
+      const Surfaces& s = cell(surfaces_, pixel);
+      return mean(s.depth, s.count);
+    });
+}
+
+}  // namespace pbrt

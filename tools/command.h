@@ -1,0 +1,42 @@
+#pragma once
+// What all commands have in common: the command line, and the place where errors end.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "core/base/error.h"
+
+namespace pbrt {
+
+// Parses the words of the command line (the last first, as CLI11 wants them), then calls body(),
+// which returns the exit code. Errors are printed and become exit codes: those of Failure, 3 if
+// memory is short, `bug` for what should not be.
+template <class Body>
+int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug = 1) {
+  try {
+    app.parse(std::move(words));
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(Failure::usage);
+  }
+  try {
+    return body();
+  } catch (const Error& error) {
+    for (const Diagnostic& d : error.diagnostics()) fmt::print(stderr, "{}\n", format(d));
+    return static_cast<int>(error.failure());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "error: out of memory\n");
+    return static_cast<int>(Failure::scene);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: {} (this is a bug in {})\n", error.what(), app.get_name());
+    return bug;
+  }
+}
+
+// The words after the command's name, the last first.
+inline std::vector<std::string> reversedWords(int argc, char** argv) {
+  return {std::reverse_iterator(argv + argc), std::reverse_iterator(argv + 1)};
+}
+
+}  // namespace pbrt

@@ -1,0 +1,160 @@
+#include "options.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+namespace pbrt {
+
+namespace {
+
+// "a..b": the samples from a up to, not including, b.
+void readRange(const std::string& text, Goal& goal) {
+  const char* const end = text.data() + text.size();
+  const auto [dots, error] = std::from_chars(text.data(), end, goal.firstSample);
+  if (error == std::errc() && std::string_view(dots, end).starts_with("..")) {
+    const auto [last, error2] = std::from_chars(dots + 2, end, goal.endSample);
+    if (error2 == std::errc() && last == end && goal.firstSample < goal.endSample &&
+        goal.endSample <= kMostSamples)
+      return;
+  }
+  throw Error(
+      fmt::format("--samples takes a range like 0..64 (64 samples, the first is 0), not {}", text),
+      Failure::usage);
+}
+
+// CLI11's own shows all digits of the largest double.
+CLI::Validator positive() {
+  return {[](std::string& text) {
+            double value = 0;
+            const bool fine = CLI::detail::lexical_cast(text, value) && value > 0;
+            return fine && std::isfinite(value) ? "" : "must be a number above 0, not " + text;
+          },
+          "NUMBER"};
+}
+
+// A duration in seconds: 30, 30s, 1.5m, 2h, 500ms.
+CLI::Validator seconds() {
+  return CLI::AsNumberWithUnit(
+             std::map<std::string, double>{{"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}},
+             CLI::AsNumberWithUnit::UNIT_OPTIONAL, "DURATION") &
+         positive();
+}
+
+}  // namespace
+
+void defineOptions(CLI::App& app, Options& o) {
+  app.set_version_flag("--version", "pbrt " PBRT_VERSION);
+  app.add_option("scene", o.files,
+                 "Scene files; several are one scene in sequence. None, or -, is "
+                 "standard input");
+  app.add_option("--outfile", o.outputs, "Where the picture goes (.exr or .png); may be repeated")
+      ->take_all()
+      ->allow_extra_args(false);
+  app.add_option("--spp", o.samplesPerPixel, "Samples per pixel")
+      ->check(CLI::Range(1, std::numeric_limits<int>::max()));
+  app.add_option("--samples", o.samples,
+                 "Take samples A..B of each pixel only (0..64 are the first 64)");
+  app.add_option(
+         "--time", o.goal.seconds,
+         "Render for as long as this, e.g. 30s, 5m, 2h; without --spp, any number of samples")
+      ->transform(seconds());
+  app.add_option("--target-error", o.goal.error,
+                 "Render until the relative error, as estimated from the picture's own noise, is "
+                 "this, e.g. 0.01")
+      ->check(positive());
+  app.add_option("--write-every", o.goal.interval, "Write the picture so far this often, e.g. 10s")
+      ->transform(seconds());
+  app.add_option("--aov", o.aovs,
+                 fmt::format("What to store in the .exr beside the picture: {}",
+                             fmt::join(aovNames(), ", ")))
+      ->delimiter(',')
+      ->take_all()
+      ->allow_extra_args(false)
+      ->check(CLI::IsMember(std::vector<std::string>(aovNames().begin(), aovNames().end())));
+  app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");
+  app.add_option("--nthreads", o.build.threads, "Number of threads (default: all cores)")
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--width", o.build.width, "Width in pixels; the height follows")
+      ->check(CLI::Range(1, 1 << 16));
+  app.add_option("--cropwindow", o.cropWindow,
+                 "The part to render: x0 x1 y0 y1 or x0,x1,y0,y1, "
+                 "each from 0 to 1")
+      ->expected(4)
+      ->allow_extra_args(false);
+  app.add_option("--pixelbounds", o.pixelBounds, "The part to render in pixels: x0,x1,y0,y1")
+      ->expected(4)
+      ->allow_extra_args(false);
+  app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
+  app.add_flag("--quiet", o.quiet, "Say nothing but errors");
+  app.add_flag("--stats", o.stats, "Tell times, rays, memory and the plug-ins that were opened");
+  app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
+      ->check(CLI::IsMember({"verbose", "warning", "error"}));
+  app.add_option("--plugin-path", o.pluginPath,
+                 "Folders searched first for plug-ins, separated by "
+                 "colons (also: PBRT_PLUGIN_PATH)");
+  app.add_flag("--list-plugins", o.listPlugins, "List the plug-ins that there are");
+  app.add_option("--describe", o.describe, "Show a plug-in's parameters: KIND NAME")->expected(2);
+  app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3")
+      ->check(CLI::IsMember({"v1", "v2", "v3"}));
+  app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
+}
+
+std::vector<std::string> words(int argc, char** argv) {
+  std::vector<std::string> result;
+  for (int i = 1; i < argc; ++i) {
+    std::string_view word = argv[i];
+    bool window = i > 1 && (argv[i - 1] == std::string_view("--cropwindow") ||
+                            argv[i - 1] == std::string_view("--pixelbounds"));
+    if (word.starts_with("--cropwindow=") || word.starts_with("--pixelbounds=")) {
+      const std::size_t equals = word.find('=');
+      result.emplace_back(word.substr(0, equals));
+      word.remove_prefix(equals + 1);
+      window = true;
+    }
+    for (std::size_t comma; window && (comma = word.find(',')) != word.npos;) {
+      result.emplace_back(word.substr(0, comma));
+      word.remove_prefix(comma + 1);
+    }
+    result.emplace_back(word);
+  }
+  std::reverse(result.begin(), result.end());
+  return result;
+}
+
+void finishOptions(Options& o) {
+  if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
+  if (o.samplesPerPixel) o.build.samplesPerPixel = o.samplesPerPixel;
+  if (!o.samples.empty()) readRange(o.samples, o.goal);
+  for (const std::string& name : o.aovs) o.aovSet |= *aovByName(name);
+  o.build.aovs = o.aovSet;
+  if (o.goal.error) o.build.aovs |= kVariance;
+  if (!o.cropWindow.empty()) {
+    o.build.cropWindow.emplace();
+    std::copy(o.cropWindow.begin(), o.cropWindow.end(), o.build.cropWindow->begin());
+    for (const float x : o.cropWindow)
+      if (!std::isfinite(x)) throw Error("--cropwindow takes numbers from 0 to 1", Failure::usage);
+  }
+  if (!o.pixelBounds.empty()) {
+    o.build.pixelBounds.emplace();
+    std::copy(o.pixelBounds.begin(), o.pixelBounds.end(), o.build.pixelBounds->begin());
+  }
+  if (o.files.empty()) o.files = {"-"};
+  o.build.report = [quiet = o.quiet, level = o.logLevel](const Diagnostic& d) {
+    const bool wanted =
+        d.severity == Severity::error ||
+        (!quiet && (d.severity == Severity::warning ? level != "error" : level == "verbose"));
+    if (wanted) fmt::print(stderr, "{}\n", format(d));
+  };
+}
+
+Goal goalOf(const Options& o, int samplesPerPixel) {
+  Goal goal = o.goal;
+  const bool byOther = goal.seconds || goal.error;
+  if (o.samples.empty())
+    goal.endSample =
+        byOther && !o.samplesPerPixel ? kMostSamples : static_cast<std::uint32_t>(samplesPerPixel);
+  return goal;
+}
+
+}  // namespace pbrt

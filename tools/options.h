@@ -1,0 +1,45 @@
+#pragma once
+// The command line of pbrt.
+
+#include <CLI/CLI.hpp>
+
+#include "core/scene/builder.h"
+#include "passes.h"
+
+namespace pbrt {
+
+struct Options {
+  std::vector<std::string> files;
+  std::vector<std::string> outputs;
+  BuildOptions build;
+  std::string dialect;
+  std::vector<float> cropWindow;
+  std::vector<int> pixelBounds;
+  int samplesPerPixel = 0;
+  std::string samples;
+  std::vector<std::string> aovs;
+  std::uint8_t aovSet = 0;
+  Goal goal;  // see goalOf()
+  bool quiet = false;
+  bool stats = false;
+  std::string logLevel = "warning";
+  std::string pluginPath;
+  bool listPlugins = false;
+  std::vector<std::string> describe;
+};
+
+// Defines the command line; what it reads lands in `o`.
+void defineOptions(CLI::App& app, Options& o);
+
+// The words of the command line, the last first as CLI11 wants them. pbrt-v4 writes a window as
+// x0,x1,y0,y1, perhaps after an equals sign; it becomes the four words that pbrt-v3 has.
+std::vector<std::string> words(int argc, char** argv);
+
+// What the words mean once all are read. Throws Error, Failure::usage.
+void finishOptions(Options& o);
+
+// When the render ends. Where the command line names no samples, they are the scene's, or any
+// number if time or error end it.
+Goal goalOf(const Options& o, int samplesPerPixel);
+
+}  // namespace pbrt

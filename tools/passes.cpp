@@ -1,0 +1,61 @@
+#include "passes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pbrt {
+
+double estimatedError(const Image& image) {
+  double sum = 0;
+  for (const char* c : {"R", "G", "B"}) {
+    const std::vector<float>& values = *image.channel(c);
+    const std::vector<float>& variances = *image.channel(std::string("Variance.") + c);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      sum += variances[i] / (static_cast<double>(values[i]) * values[i] + 0.01);
+  }
+  return std::sqrt(sum / (3.0 * static_cast<double>(image.channels[0].size())));
+}
+
+Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double> error) {
+  // Fewer samples may not have met what is rare and bright yet.
+  constexpr std::uint32_t kEnoughForVariance = 16;
+
+  const std::uint32_t done = taken();
+  const std::uint32_t left = goal_.endSample - end_;
+  if (!goal_.seconds && !goal_.error && !goal_.interval) {
+    end_ = goal_.endSample;
+    return {goal_.firstSample + done, end_, 0, 1};
+  }
+  // The first tells how long a sample takes; each further pass at most doubles what there is, since
+  // it is planned from what was seen.
+  const double perSample = seconds / std::max(1U, done);
+  double wanted = std::min(left, std::max(1U, done));
+  double part = static_cast<double>(done) / (done + left), whole = done + left;
+  if (done > 0) {
+    if (goal_.seconds) {
+      const double room = (*goal_.seconds - seconds) / perSample;
+      wanted = std::min(wanted, room < 1 ? 0 : room);
+      whole = std::min(whole, done + std::max(0.0, room));
+    }
+    if (goal_.interval)
+      wanted = std::min(wanted, std::max(1.0, (*goal_.interval - sinceLook) / perSample));
+    if (goal_.error && error) {
+      // The error falls with the root of the number of samples.
+      const double needed = done * std::pow(*error / *goal_.error, 2);
+      if (done < kEnoughForVariance)
+        wanted = std::min(wanted, double{kEnoughForVariance});
+      else if (*error <= *goal_.error)
+        wanted = 0;
+      else
+        wanted = std::min(wanted, std::max(1.0, std::ceil(needed - done)));
+      whole = std::min(whole, std::max(needed, double{kEnoughForVariance}));
+    }
+    part = std::min(1.0, done / std::max(1.0, whole));
+  }
+  const Pass pass{end_, end_ + static_cast<std::uint32_t>(wanted), part,
+                  std::min(1.0, (done + wanted) / std::max(1.0, whole))};
+  end_ = pass.end;
+  return pass;
+}
+
+}  // namespace pbrt
