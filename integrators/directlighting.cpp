@@ -8,13 +8,6 @@
 namespace pbrt {
 namespace {
 
-// The weight of a sample of a strategy that has n samples of density a, where the other one has m
-// of density b (Veach 1997, power heuristic with exponent 2).
-float powerHeuristic(std::size_t n, float a, std::size_t m, float b) {
-  const float r = static_cast<float>(m) * b / (static_cast<float>(n) * a);
-  return 1 / (1 + r * r);
-}
-
 class DirectLighting final : public SamplingIntegrator {
  public:
   static constexpr std::uint8_t kSampledLobes = kAllLobes & ~kSpecular;
@@ -84,13 +77,9 @@ class DirectLighting final : public SamplingIntegrator {
     ShadowedSum direct(world);
     for (const Point2& u : points) {
       const LightSample s = light.sample(at.p, u);
-      if (s.pdf == 0 || isBlack(s.L)) continue;
-      const Spectrum f = bsdf.f(at.wo, s.wi);
-      if (isBlack(f)) continue;
-      const float weight = others == 0 ? 1
-                                       : powerHeuristic(points.size(), s.pdf, others,
-                                                        bsdf.pdf(at.wo, s.wi, kSampledLobes));
-      direct.add(shadowRay(at, s), f * s.L * (std::abs(glm::dot(s.wi, at.ns)) * weight / s.pdf));
+      const Spectrum L = unshadowed(at, bsdf, s, static_cast<float>(points.size()),
+                                    static_cast<float>(others), kSampledLobes);
+      if (!isBlack(L)) direct.add(shadowRay(at, s), L);
     }
     return direct.sum() / static_cast<float>(points.size());
   }
@@ -118,7 +107,9 @@ class DirectLighting final : public SamplingIntegrator {
       if (!isBlack(L))
         sum += s->f * L *
                (std::abs(glm::dot(s->wi, at.ns)) *
-                powerHeuristic(points.size(), s->pdf, others, lightPdf) / s->pdf);
+                powerHeuristic(static_cast<float>(points.size()), s->pdf,
+                               static_cast<float>(others), lightPdf) /
+                s->pdf);
     }
     return sum / static_cast<float>(points.size());
   }
