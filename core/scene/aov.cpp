@@ -6,7 +6,7 @@ namespace pbrt {
 
 namespace {
 
-constexpr std::uint8_t kOfSamples = kVariance | kSampleCount;
+constexpr std::uint8_t kOfSurfaces = kAlbedo | kNormal | kPosition | kDepth;
 
 constexpr std::array<std::string_view, 6> kNames = {"variance", "albedo", "normal",
                                                     "position", "depth",  "samples"};
@@ -53,16 +53,8 @@ std::optional<std::uint8_t> aovByName(std::string_view name) {
 
 AovSums::AovSums(std::uint8_t stored, Point2i size, int tile, const DPoint3& origin)
     : stored_(stored), origin_(origin) {
-  if (stores(kOfSamples)) moments_ = {size.x, size.y, tile};
-  if (stores(static_cast<std::uint8_t>(~kOfSamples))) surfaces_ = {size.x, size.y, tile};
-}
-
-void AovSums::add(int tile, Point2i pixel, const Spectrum& L) {
-  Moments& m = moments_.row(tile, pixel.y)[pixel.x];
-  const glm::dvec3 value(L);
-  m.sum += value;
-  m.squares += value * value;
-  ++m.count;
+  if (stores(kSampleCount)) counts_ = {size.x, size.y, tile};
+  if (stores(kOfSurfaces)) surfaces_ = {size.x, size.y, tile};
 }
 
 void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {
@@ -74,19 +66,11 @@ void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {
   ++s.count;
 }
 
-void AovSums::appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window,
-                       double filterNoise) const {
+void AovSums::appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window) const {
   wanted &= stored_;
   const auto mean = [](double sum, double count) { return count > 0 ? sum / count : 0; };
-  if (wanted & kVariance)
-    append(image, "Variance", "RGB", window, [&](Point2i pixel, int c) {
-      const Moments& m = cell(moments_, pixel);
-      if (m.count < 2) return 0.0;
-      const double ofSamples = (m.squares[c] - m.sum[c] * m.sum[c] / m.count) / (m.count - 1);
-      return std::max(0.0, ofSamples) / m.count * filterNoise;
-    });
   if (wanted & kSampleCount)
-    append(image, "samples", window, [&](Point2i pixel) { return cell(moments_, pixel).count; });
+    append(image, "samples", window, [&](Point2i pixel) { return cell(counts_, pixel); });
   if (wanted & kAlbedo)
     append(image, "Albedo", "RGB", window, [&](Point2i pixel, int c) {
       const Surfaces& s = cell(surfaces_, pixel);

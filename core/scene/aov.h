@@ -33,8 +33,9 @@ struct FirstSurface {
   float depth = 0;
 };
 
-// Sums over the samples taken in each pixel itself; the reconstruction filter has no part in them.
-// Surfaces are averaged over the samples that met one; pixels that saw none are 0.
+// All of them but the variance, which is the filtered picture's own. Sums over the samples taken in
+// each pixel itself: the reconstruction filter has no part in them. Surfaces are averaged over the
+// samples that met one; pixels that saw none are 0.
 class AovSums {
  public:
   AovSums() = default;
@@ -44,20 +45,14 @@ class AovSums {
 
   bool stores(std::uint8_t any) const { return (stored_ & any) != 0; }
   // `pixel` counts from the tile's corner.
-  void add(int tile, Point2i pixel, const Spectrum& L);
+  void addSample(int tile, Point2i pixel) { ++counts_.row(tile, pixel.y)[pixel.x]; }
   void add(int tile, Point2i pixel, const FirstSurface& surface);
 
   // Appends those channels of `wanted` that are stored, over `window`, which counts from the first
-  // pixel of all. The filter averages over neighbours: it makes a pixel's variance `filterNoise`
-  // times that of the mean of its own samples. Fewer than two samples have no variance: 0.
-  void appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window,
-                double filterNoise) const;
+  // pixel of all.
+  void appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window) const;
 
  private:
-  struct Moments {
-    glm::dvec3 sum{0}, squares{0};
-    double count = 0;
-  };
   struct Surfaces {
     glm::dvec3 albedo{0}, n{0}, p{0};
     double depth = 0, count = 0;
@@ -65,7 +60,7 @@ class AovSums {
 
   std::uint8_t stored_ = 0;
   glm::dvec3 origin_{0};
-  BlockedArray<Moments> moments_;    // empty unless variance or the sample count is stored
+  BlockedArray<double> counts_;      // empty unless the sample count is stored
   BlockedArray<Surfaces> surfaces_;  // empty unless something of the surface is
 };
 

@@ -27,6 +27,7 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
   try {
     const Point2i size(sampled_.width(), sampled_.height());
     sums_ = {size.x, size.y, kTile, std::max({reach.x, reach.y, 0})};
+    if (settings.aovs & kVariance) noise_ = {size.x, size.y, kTile, sums_.apron()};
     aovs_ = {settings.aovs, size, kTile, settings.origin};
   } catch (const std::exception&) {
     throw Error(
@@ -53,12 +54,9 @@ Bounds2i Film::tilePixels(int tile) const {
   return intersect(sampled_, {lo, lo + kTile});
 }
 
-void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
-  Spectrum L = radiance * scale_;
-  if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
-  const Point2i corner = sampled_.lo + sums_.corner(tile), origin = corner - sums_.apron();
-  if (aovs_.stores(kVariance | kSampleCount))
-    aovs_.add(tile, Point2i(glm::floor(film)) - corner, L);
+template <class Add>
+void Film::spread(int tile, Point2 film, Add add) const {
+  const Point2i origin = sampled_.lo + sums_.corner(tile) - sums_.apron();
   // Sample and pixel centres in the tile's own pixels, so that truncation rounds down.
   const Point2 p = film - Point2(origin) - 0.5F;
   const int x0 = std::max(0, static_cast<int>(p.x - radius_.x) + (p.x >= radius_.x));
@@ -69,23 +67,81 @@ void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
     const int ty = std::min(
         kTable - 1, static_cast<int>(std::abs(static_cast<float>(y) - p.y) * tableScale_.y));
     const float* weights = &table_[ty * kTable];
-    Sum* sums = sums_.row(tile, y);
     for (int x = x0; x <= x1; ++x) {
       const int tx = std::min(
           kTable - 1, static_cast<int>(std::abs(static_cast<float>(x) - p.x) * tableScale_.x));
-      const double w = weights[tx];
-      Sum& sum = sums[x];
-      sum.r += w * L.x;
-      sum.g += w * L.y;
-      sum.b += w * L.z;
-      sum.alpha += w * alpha;
-      sum.weight += w;
+      add(x, y, double{weights[tx]});
     }
   }
 }
 
+void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
+  Spectrum L = radiance * scale_;
+  if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
+  spread(tile, film, [&](int x, int y, double w) {
+    Sum& sum = sums_.row(tile, y)[x];
+    sum.r += w * L.x;
+    sum.g += w * L.y;
+    sum.b += w * L.z;
+    sum.alpha += w * alpha;
+    sum.weight += w;
+  });
+  if (noise_.blocks() > 0)
+    spread(tile, film, [&](int x, int y, double w) {
+      if (w == 0) return;
+      Noise& noise = noise_.row(tile, y)[x];
+      const glm::dvec3 wL = w * glm::dvec3(L);
+      noise.wwL += w * wL;
+      noise.wwLL += wL * wL;
+      noise.ww += w * w;
+      ++noise.count;
+    });
+  if (aovs_.stores(kSampleCount))
+    aovs_.addSample(tile, Point2i(glm::floor(film)) - sampled_.lo - sums_.corner(tile));
+}
+
 void Film::add(int tile, Point2i pixel, const FirstSurface& surface) {
   aovs_.add(tile, pixel - (sampled_.lo + sums_.corner(tile)), surface);
+}
+
+template <class T>
+T Film::gather(const BlockedArray<T>& sums, Point2i pixel) const {
+  const int border = sums.apron();
+  // The tiles whose sums, with their borders, cover this pixel.
+  const Point2i first = glm::max(pixel - border, 0) / kTile;
+  const Point2i last = glm::min((pixel + border) / kTile, Point2i(sums.across(), sums.down()) - 1);
+  T total;
+  for (int ty = first.y; ty <= last.y; ++ty)
+    for (int tx = first.x; tx <= last.x; ++tx) {
+      const Point2i in = pixel - Point2i(tx, ty) * kTile + border;
+      total += sums.row(ty * sums.across() + tx, in.y)[in.x];
+    }
+  return total;
+}
+
+// A pixel is m = sum(w L) / sum(w), a ratio of two sums over independent samples; to first order
+// its variance is sum(w^2 (L - m)^2) / sum(w)^2 (Cochran 1977, "Sampling Techniques",
+// section 2.11), times n / (n - 1) for the n samples that m was taken from itself. Where samples
+// are spread better than at random, the true variance is smaller.
+void Film::appendVariance(Image& image) const {
+  const std::size_t first = image.channels.size();
+  for (const char* name : {"Variance.R", "Variance.G", "Variance.B"}) {
+    image.names.emplace_back(name);
+    image.channels.emplace_back(image.channels[0].size());
+  }
+  std::size_t i = 0;
+  for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
+    for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
+      const Point2i pixel = Point2i(x, y) - sampled_.lo;
+      const Noise noise = gather(noise_, pixel);
+      const Sum sum = gather(sums_, pixel);
+      if (noise.count < 2 || sum.weight == 0) continue;
+      const glm::dvec3 m = glm::dvec3(sum.r, sum.g, sum.b) / sum.weight;
+      const glm::dvec3 squares = noise.wwLL - 2.0 * m * noise.wwL + m * m * noise.ww;
+      const double scale = noise.count / ((noise.count - 1) * sum.weight * sum.weight);
+      for (int c = 0; c < 3; ++c)
+        image.channels[first + c][i] = static_cast<float>(std::max(0.0, squares[c]) * scale);
+    }
 }
 
 Image Film::image(std::uint8_t aovs) const {
@@ -96,23 +152,10 @@ Image Film::image(std::uint8_t aovs) const {
   const std::size_t n = std::size_t(crop_.width()) * crop_.height();
   image.channels.assign(4, std::vector<float>(n));
 
-  const int border = sums_.apron();
   std::size_t i = 0;
   for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
     for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
-      // The tiles whose sums, with their borders, cover this pixel.
-      const Point2i p = Point2i(x, y) - sampled_.lo;
-      const Point2i first = glm::max(p - border, 0) / kTile;
-      const Point2i last =
-          glm::min((p + border) / kTile, Point2i(sums_.across(), sums_.down()) - 1);
-      Sum sum;
-      for (int ty = first.y; ty <= last.y; ++ty)
-        for (int tx = first.x; tx <= last.x; ++tx) {
-          const Point2i in = p - Point2i(tx, ty) * kTile + border;
-          const Sum& s = sums_.row(ty * sums_.across() + tx, in.y)[in.x];
-          sum.r += s.r, sum.g += s.g, sum.b += s.b;
-          sum.alpha += s.alpha, sum.weight += s.weight;
-        }
+      const Sum sum = gather(sums_, Point2i(x, y) - sampled_.lo);
       if (sum.weight == 0) continue;
       const double scale = 1 / sum.weight;
       image.channels[0][i] = static_cast<float>(std::max(0.0, sum.r * scale));
@@ -120,7 +163,8 @@ Image Film::image(std::uint8_t aovs) const {
       image.channels[2][i] = static_cast<float>(std::max(0.0, sum.b * scale));
       image.channels[3][i] = static_cast<float>(std::clamp(sum.alpha * scale, 0.0, 1.0));
     }
-  aovs_.appendTo(image, aovs, {crop_.lo - sampled_.lo, crop_.hi - sampled_.lo}, filterNoise_);
+  if (aovs & kVariance && noise_.blocks() > 0) appendVariance(image);
+  aovs_.appendTo(image, aovs, {crop_.lo - sampled_.lo, crop_.hi - sampled_.lo});
   return image;
 }
 

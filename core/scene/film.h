@@ -46,9 +46,9 @@ class Film {
   bool storesSurfaces() const { return aovs_.stores(kAlbedo | kNormal | kPosition | kDepth); }
   void add(int tile, Point2i pixel, const FirstSurface& surface);
 
-  // The variance of a pixel over that of the mean of its own samples: the filter averages over
-  // neighbours, whose errors it thereby correlates. The mean over a block of P pixels has a
-  // variance of sum(Variance / filterNoise) / P^2.
+  // The variance of a pixel over that of the mean of its own samples, where all pixels are alike:
+  // the filter averages over neighbours, whose errors it thereby correlates. The mean over a block
+  // of P pixels has a variance of about sum(Variance / filterNoise) / P^2.
   double filterNoise() const { return filterNoise_; }
 
   // The picture so far: channels R, G, B, A over the crop, premultiplied by alpha as EXR has it,
@@ -57,11 +57,35 @@ class Film {
   Image image(std::uint8_t aovs = ~std::uint8_t{0}) const;
 
  private:
+  // Of weighted samples.
   struct Sum {
     double r = 0, g = 0, b = 0, alpha = 0, weight = 0;
+
+    Sum& operator+=(const Sum& o) {
+      r += o.r, g += o.g, b += o.b, alpha += o.alpha, weight += o.weight;
+      return *this;
+    }
+  };
+  // What the variance of a Sum over its weight asks for.
+  struct Noise {
+    glm::dvec3 wwL{0}, wwLL{0};
+    double ww = 0, count = 0;
+
+    Noise& operator+=(const Noise& o) {
+      wwL += o.wwL, wwLL += o.wwLL, ww += o.ww, count += o.count;
+      return *this;
+    }
   };
 
   static constexpr int kTable = 32;  // filter table, cells per radius
+
+  // Calls add(x, y, weight) for each cell of the tile that a sample at `film` counts in.
+  template <class Add>
+  void spread(int tile, Point2 film, Add add) const;
+  // Adds up what all tiles hold of a pixel, which counts from the first sampled one.
+  template <class T>
+  T gather(const BlockedArray<T>& sums, Point2i pixel) const;
+  void appendVariance(Image& image) const;
 
   Point2i resolution_;
   Bounds2i crop_, sampled_;
@@ -69,8 +93,9 @@ class Film {
   double filterNoise_ = 1;
   Vec2 radius_;
   Vec2 tableScale_;
-  std::vector<float> table_;  // filter weights over one quadrant
-  BlockedArray<Sum> sums_;    // a block a tile; the apron is what the filter reaches beyond it
+  std::vector<float> table_;   // filter weights over one quadrant
+  BlockedArray<Sum> sums_;     // a block a tile; the apron is what the filter reaches beyond it
+  BlockedArray<Noise> noise_;  // the same; empty unless the variance is stored
   AovSums aovs_;
 };
 

@@ -2,6 +2,7 @@
 
 #include "core/scene/aov.h"
 
+#include "core/base/rng.h"
 #include "tests/scenes.h"
 
 namespace pbrt {
@@ -182,6 +183,33 @@ TEST_P(Variance, IsThatOfRendersWithOtherSeeds) {
 INSTANTIATE_TEST_SUITE_P(Filters, Variance,
                          testing::Values("\"box\"", "\"gaussian\"", "\"mitchell\"",
                                          "\"triangle\" \"float xwidth\" 1.5 \"float ywidth\" 3"));
+
+// Beside a noisy area, the filter carries noise into pixels whose own samples are all alike.
+TEST(Aov, VarianceKnowsOfNoiseFromBeyondThePixel) {
+  const auto gaussian = test::make<Filter>("gaussian");
+  const Film empty({16, 16}, {{0, 0}, {16, 16}}, *gaussian, {.aovs = kVariance});
+  Rng rng(3);
+  constexpr int kRenders = 2000, kSamples = 8;
+  constexpr int kFlat = 8 * 16 + 8;  // a pixel whose left neighbours are noisy
+  double sum = 0, squares = 0, stated = 0;
+  for (int render = 0; render < kRenders; ++render) {
+    Film film = empty;
+    for (int y = 0; y < 16; ++y)
+      for (int x = 0; x < 16; ++x)
+        for (int s = 0; s < kSamples; ++s) {
+          const Point2 at(float(x) + rng.uniform(), float(y) + rng.uniform());
+          film.add(0, at, Spectrum(x < 8 ? 2 * rng.uniform() : 1), 1);
+        }
+    const Image image = film.image();
+    const double value = (*image.channel("G"))[kFlat];
+    sum += value;
+    squares += value * value;
+    stated += (*image.channel("Variance.G"))[kFlat] / kRenders;
+  }
+  const double shown = (squares - sum * sum / kRenders) / (kRenders - 1);
+  EXPECT_GT(shown, 1e-5);
+  EXPECT_NEAR(stated / shown, 1, 0.15);  // 3.2 % is one standard deviation of `shown`
+}
 
 TEST(Aov, SameBitsForAnyThreadsAndPasses) {
   std::string text = kNoisy;
