@@ -95,7 +95,8 @@ void SceneBuilder::makeCameraAndFilm() {
     scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.matrix();
 
   if (integrator_)
-    translateParameters(factory_.dialect(), PluginKind::integrator, integrator_->params);
+    translateParameters(factory_.dialect(), PluginKind::integrator, integrator_->words.at(0),
+                        integrator_->params);
   const Directive& integrator =
       option(integrator_, DirectiveKind::Integrator, defaults_.integrator);
   scene_->integrator_ =

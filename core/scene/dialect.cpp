@@ -52,6 +52,7 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {{v1}, PluginKind::integrator, "whitted", {count("maxdepth", 6)}},
       {{v1}, PluginKind::integrator, "directlighting", {count("maxdepth", 6)}},
       {{v1, v2}, PluginKind::sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
+      {{v1, v2}, PluginKind::integrator, "path", {count("maxdepth", 6)}},
       {{v1}, PluginKind::sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
   };
   return table;
@@ -121,8 +122,10 @@ const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::
   return none;
 }
 
-void translateParameters(Dialect dialect, PluginKind kind, ParamList& params) {
-  if (dialect != Dialect::v1 || kind != PluginKind::integrator) return;
+void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
+                         ParamList& params) {
+  if (kind != PluginKind::integrator) return;
+  if (!(dialect == Dialect::v1 || (dialect == Dialect::v2 && name == "path"))) return;
   for (Param& param : params)
     if (auto* values = std::get_if<std::vector<int>>(&param.values);
         values && param.name == "maxdepth")

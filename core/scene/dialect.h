@@ -34,9 +34,11 @@ const DialectDefaults& dialectDefaults(Dialect dialect);
 // The default parameters of a plug-in where they differ from the plug-in's own, which are v3's.
 const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::string& name);
 
-// Changes parameters that mean something else in a generation to what they mean here: the maxdepth
-// of pbrt-v1's integrators counts mirrors, that of the later ones rays.
-void translateParameters(Dialect dialect, PluginKind kind, ParamList& params);
+// Changes parameters of a plug-in that mean something else in a generation to what they mean here:
+// the maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path in
+// v1 and v2 leaves out the first scattering.
+void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
+                         ParamList& params);
 
 // A name under which a plug-in is known to scene files, and the one that it has here.
 struct Alias {

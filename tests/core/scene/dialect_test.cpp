@@ -28,6 +28,20 @@ TEST(Dialect, AmbiguousFilesCountAsV2) {
   EXPECT_EQ(detected(""), Dialect::v2);
 }
 
+TEST(Dialect, EveryGenerationsMaxdepthBecomesOurs) {
+  const auto translated = [](Dialect dialect, const std::string& integrator) {
+    ParamList params = {{ParamType::integer, "maxdepth", {}, {}, std::vector<int>{5}}};
+    translateParameters(dialect, PluginKind::integrator, integrator, params);
+    return std::get<std::vector<int>>(params[0].values).at(0);
+  };
+  EXPECT_EQ(translated(Dialect::v1, "whitted"), 6);
+  EXPECT_EQ(translated(Dialect::v2, "whitted"), 5);
+  EXPECT_EQ(translated(Dialect::v3, "whitted"), 5);
+  EXPECT_EQ(translated(Dialect::v1, "path"), 6);
+  EXPECT_EQ(translated(Dialect::v2, "path"), 6);
+  EXPECT_EQ(translated(Dialect::v3, "path"), 5);
+}
+
 TEST(Dialect, NamesRoundTrip) {
   for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3})
     EXPECT_EQ(dialectByName(dialectName(d)), d);
