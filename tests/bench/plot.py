@@ -1,17 +1,21 @@
 #!/usr/bin/env python3
 """Draws docs/metaballs-triangles.svg and docs/metaballs-tolerance.svg from what the programs
-metaballs_triangles and metaballs_tolerance wrote into the folder of their build (build/bench).
+metaballs_triangles and metaballs_tolerance wrote into the folder of their build, or a figure of the
+curves in a report of pbrt-converge, one panel for each scene.
 
-    ./dev bench metaballs_triangles metaballs_tolerance && tests/bench/plot.py [FOLDER]
+    ./dev bench metaballs_triangles metaballs_tolerance && tests/bench/plot.py build/bench
+    tests/bench/plot.py REPORT.json FIGURE.svg
 """
 
 import csv
+import html
+import json
 import math
 import pathlib
 import sys
 
 PROJECT = pathlib.Path(__file__).resolve().parents[2]
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7"]  # Okabe and Ito 2008: for every eye
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"]  # Okabe and Ito 2008
 LEVEL = '<tspan dy="6"> </tspan>'  # back to the line after a raised exponent
 HALO = ' stroke="#fff" stroke-width="6" paint-order="stroke"'
 
@@ -153,7 +157,36 @@ def draw_tolerance(sets):
     write("metaballs-tolerance.svg", 740, 550, parts)
 
 
+def draw_report(report, name):
+    """RMSE against CPU seconds, which other work on the machine disturbs least."""
+    scenes = {}
+    for variant in report["variants"]:
+        scenes.setdefault(variant["reference"], []).append(variant)
+    parts = []
+    for index, (reference, variants) in enumerate(scenes.items()):
+        curves = [[(s["cpuSeconds"], s["rmse"]) for s in v["snapshots"]] for v in variants]
+        points = [p for curve in curves for p in curve]
+        panel = Panel(85 + 400 * index, 50, 300, 330, decades([p[0] for p in points]),
+                      decades([p[1] for p in points]))
+        panel.axes(report["references"][reference]["scene"], "CPU seconds", "RMSE")
+        for row, (colour, variant, curve) in enumerate(zip(COLOURS, variants, curves)):
+            panel.curve(curve, colour)
+            slope = variant["slope"]
+            text = html.escape(variant["label"]) + (
+                f": {slope['value']:.2f} ± {slope['error']:.2f}".replace("-", "−") if slope else "")
+            y = panel.top + panel.height + 66 + 20 * row
+            panel.parts.append(
+                f'<circle cx="{panel.left}" cy="{y - 4}" r="5" fill="{colour}"/>'
+                f'<text x="{panel.left + 12}" y="{y}">{text}</text>')
+        parts += panel.parts
+    rows = max(len(variants) for variants in scenes.values())
+    write(name, 400 * len(scenes) + 20, 450 + 20 * rows, parts)
+
+
 def main():
+    if len(sys.argv) == 3:
+        draw_report(json.loads(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8")), sys.argv[2])
+        return
     folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else PROJECT / "build" / "bench"
     draw_triangles(read(folder / "metaballs_triangles.csv"))
     draw_tolerance(read(folder / "metaballs_tolerance.csv"))

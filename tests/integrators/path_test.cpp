@@ -1,146 +1,15 @@
-// Path tracing against closed forms: series of bounces, form factors, mirror images.
+// Path tracing against closed forms: form factors, mirror images, odd scenes.
 
-#include <fmt/format.h>
-
-#include "tests/scenes.h"
+#include "tests/integrators/estimate.h"
 
 namespace pbrt {
 namespace {
 
-constexpr double kSigmas = 4.5;
-
-// The radiance that one-sample pixels measure, which all look at the same point.
-struct Estimate {
-  double mean = 0, variance = 0;  // of one sample
-  double least = kInfinity, most = 0;
-  int samples = 0;
-
-  double error() const { return std::sqrt(variance / samples); }
-};
-
-std::string scene(const std::string& view, const std::string& parameters, const std::string& world,
-                  int side) {
-  return fmt::format(
-      "LookAt {} Camera \"perspective\" \"float fov\" 0.001\n"
-      "Film \"image\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
-      "PixelFilter \"box\" Sampler \"random\" \"integer pixelsamples\" 1\n"
-      "Integrator {}\nWorldBegin\n{}\nWorldEnd",
-      view, side, side, parameters, world);
-}
-
-Estimate estimate(const std::string& view, const std::string& integrator, const std::string& world,
-                  int side = 100) {
-  const Image image = test::renderText(scene(view, integrator, world, side));
-  const std::vector<float>& values = *image.channel("G");
-  Estimate e;
-  e.samples = side * side;
-  for (const float v : values) {
-    e.mean += v / static_cast<double>(e.samples);
-    e.least = std::min(e.least, double{v});
-    e.most = std::max(e.most, double{v});
-  }
-  for (const float v : values) e.variance += sqr(v - e.mean) / (e.samples - 1);
-  return e;
-}
-
-// Within the estimate's own error, and that of arithmetic in floats.
-void expectMean(const Estimate& e, double expected) {
-  EXPECT_NEAR(e.mean, expected, kSigmas * e.error() + 1e-5 * expected);
-}
-
-void expectSame(const Estimate& a, const Estimate& b) {
-  EXPECT_GT(a.mean, 0.01);
-  EXPECT_NEAR(a.mean, b.mean, kSigmas * std::hypot(a.error(), b.error()));
-}
-
-std::string path(int maxDepth, const std::string& more = "") {
-  return fmt::format("\"path\" \"integer maxdepth\" {} {}", maxDepth, more);
-}
+using namespace test;
 
 const std::string kBlack = "Material \"matte\" \"rgb Kd\" [0 0 0]\n";
-const std::string kSpatial = "\"string lightsamplestrategy\" \"spatial\"";
-
-// -- a furnace: closed walls of reflectance 0.6 that all shine with radiance 1
-// ---------------------
-
-const std::string kInside = "0.2 0.1 0.3  0.9 -0.4 -0.2  0 0 1";
-constexpr double kRho = 0.6;
-
-// One light; and six.
-std::string ball() {
-  return "Material \"matte\" \"rgb Kd\" [0.6 0.6 0.6]\n"
-         "AreaLightSource \"diffuse\" ReverseOrientation Shape \"sphere\" \"float radius\" 1.5\n";
-}
-std::string box() {
-  std::string world =
-      "Material \"matte\" \"rgb Kd\" [0.6 0.6 0.6]\n"
-      "AreaLightSource \"diffuse\" \"bool twosided\" \"true\"\n";
-  for (const char* turn :
-       {"0 1 0 0", "90 1 0 0", "180 1 0 0", "270 1 0 0", "90 0 1 0", "270 0 1 0"})
-    world += fmt::format(
-        "TransformBegin Rotate {} Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
-        "\"point P\" [-1.2 -1.2 1.2  1.2 -1.2 1.2  1.2 1.2 1.2  -1.2 1.2 1.2] TransformEnd\n",
-        turn);
-  return world;
-}
-
-class Furnace : public testing::TestWithParam<std::string> {
- protected:
-  std::string world() const { return GetParam().starts_with("Ball") ? ball() : box(); }
-  std::string integrator(int maxDepth, const std::string& more = "") const {
-    return path(maxDepth, more + (GetParam().ends_with("Spatial") ? kSpatial : ""));
-  }
-};
-
-TEST_P(Furnace, EveryBounceAddsItsTermOfTheSeries) {
-  double expected = 0, term = 1;
-  for (int maxDepth = 0; maxDepth <= 6; ++maxDepth, term *= kRho) {
-    expected += term;
-    SCOPED_TRACE(maxDepth);
-    expectMean(estimate(kInside, integrator(maxDepth), world()), expected);
-  }
-}
-
-// Here f cos = rho pb, with pb the density of the BSDF's sampling; pl is the lights'. So a bounce
-// adds at most rho pb pl / (pb^2 + pl^2) <= rho / 2 by the sample of the light and rho pb^2 /
-// (pb^2 + pl^2) <= rho by the other, and what goes on is rho times what came, for every path.
-TEST_P(Furnace, NoPathCarriesMoreThanItsBound) {
-  const Estimate e = estimate(kInside, integrator(100, "\"float rrthreshold\" 0 "), world(), 50);
-  EXPECT_GE(e.least, 1);
-  EXPECT_LE(e.most, (1 + 1.5 * kRho / (1 - kRho)) * (1 + 1e-4));
-}
-
-TEST_P(Furnace, RouletteKeepsTheMeanAndSavesRays) {
-  const auto rays = [&](const std::string& threshold) {
-    const std::string more = "\"float rrthreshold\" " + threshold + " ";
-    const auto built = test::buildText(scene(kInside, integrator(60, more), world(), 10));
-    RenderControl control;
-    built->integrator().render(*built, built->sampler(), built->film(), control);
-    return control.rays.load();
-  };
-  for (const char* threshold : {"0", "0.02", "1", "1000"}) {
-    SCOPED_TRACE(threshold);
-    const std::string more = fmt::format("\"float rrthreshold\" {} ", threshold);
-    expectMean(estimate(kInside, integrator(60, more), world(), 60), 1 / (1 - kRho));
-  }
-  EXPECT_LT(4 * rays("1"), rays("0"));
-  EXPECT_LT(rays("1"), rays("0.02"));
-}
-
-// Glass that absorbs nothing cannot be seen there; inside it radiance is denser by the square of
-// its index.
-TEST_P(Furnace, GlassCannotBeSeen) {
-  const std::string glass =
-      "AttributeBegin Material \"glass\" Translate 0.55 -0.15 0.05\n"
-      "Shape \"sphere\" \"float radius\" 0.25 AttributeEnd\n";
-  expectMean(estimate(kInside, integrator(60), glass + world()), 1 / (1 - kRho));
-}
-
-INSTANTIATE_TEST_SUITE_P(Lights, Furnace, testing::Values("Ball", "BoxSpatial", "BoxUniform"),
-                         [](const auto& test) { return test.param; });
 
 // -- one bounce: form factors
-// ------------------------------------------------------------------------
 
 const std::string kFromAbove = "0 -0.2 0.2  0 0 0  0 0 1";
 const std::string kFloor =
@@ -258,7 +127,6 @@ INSTANTIATE_TEST_SUITE_P(Materials, SameAsDirect,
                          });
 
 // -- mirrors and glass
-// --------------------------------------------------------------------------------
 
 const std::string kAlongZ = "0 0 0  0 0 1  0 1 0";
 
@@ -323,7 +191,6 @@ TEST(Path, AMirrorLightsTheFloor) {
 }
 
 // -- odd scenes
-// ------------------------------------------------------------------------------------------
 
 TEST(Path, WithoutLightThePictureIsBlack) {
   EXPECT_EQ(estimate(kFromAbove, path(5), kFloor, 20).most, 0);
