@@ -1,25 +1,12 @@
 // The laws of every shape that can be an area light: what AreaSampler promises.
 
+#include "tests/mean.h"
 #include "tests/shapes/conformance.h"
 
 namespace pbrt {
 namespace {
 
-// A mean that a random experiment estimates, and how sure it is.
-class Mean {
- public:
-  void add(double x) {
-    ++n_;
-    const double delta = x - mean_;
-    mean_ += delta / n_;
-    squares_ += delta * (x - mean_);  // Welford 1962
-  }
-  double mean() const { return mean_; }
-  double variance() const { return squares_ / (n_ * std::max(1.0, n_ - 1)); }  // of the mean
-
- private:
-  double n_ = 0, mean_ = 0, squares_ = 0;
-};
+using test::Mean;
 
 // Five standard deviations: a right program fails one run in two million.
 void expectNear(double estimate, double expected, double variance, const char* what) {

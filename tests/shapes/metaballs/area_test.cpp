@@ -8,26 +8,13 @@
 
 #include "shapes/metaballs/roots.h"
 #include "tests/chi_square.h"
+#include "tests/mean.h"
 #include "tests/shapes/metaballs/clouds.h"
 
 namespace pbrt::metaballs::test {
 namespace {
 
-// A mean that a random experiment estimates, with its variance (Welford 1962).
-class Mean {
- public:
-  void add(double x) {
-    ++n_;
-    const double delta = x - mean_;
-    mean_ += delta / n_;
-    squares_ += delta * (x - mean_);
-  }
-  double mean() const { return mean_; }
-  double variance() const { return squares_ / (n_ * std::max(1.0, n_ - 1)); }
-
- private:
-  double n_ = 0, mean_ = 0, squares_ = 0;
-};
+using pbrt::test::Mean;
 
 // By how many standard deviations two estimates of the same number differ. `floor` is for what is
 // rarer than the samples can show.
