@@ -94,10 +94,10 @@ TEST(ZTest, OfPicturesWithoutNoiseIsExact) {
   EXPECT_TRUE(zTest(reference, reference)->agree());
   EXPECT_EQ(zTest(reference, reference)->scales[3].worst.z, 0);
   Image rounded = reference;
-  for (float& v : rounded.channels[0]) v = std::nextafter(v, 1.F);
-  EXPECT_TRUE(zTest(reference, rounded)->agree()) << "another order of sums";
+  for (float& v : rounded.channels[0]) v *= 1.00002F;
+  EXPECT_TRUE(zTest(reference, rounded)->agree()) << "another machine";
   Image brighter = reference;
-  for (float& v : brighter.channels[0]) v *= 1.00001F;
+  for (float& v : brighter.channels[0]) v *= 1.0001F;
   EXPECT_FALSE(zTest(reference, brighter)->agree());
   Image moved = reference;  // no block's mean changes
   moved.channels[0][100] += 0.1F;

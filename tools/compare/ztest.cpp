@@ -92,9 +92,10 @@ struct Sums {
     magnitude += std::max(std::abs(a.values[i]), std::abs(b.values[i]));
   }
 
-  // Rounding to float is noise as well: it lets equal pictures agree that have no other.
+  // Rounding is noise as well: it lets equal pictures agree that have no other. Between compilers and
+  // machines it moves a pixel by up to some hundred units in the last place of a float.
   double z() const {
-    constexpr double rounding = std::numeric_limits<float>::epsilon();
+    constexpr double rounding = 1e-5;
     const double variance = std::max(separate, pooled) + sqr(rounding * magnitude);
     const double z = variance == 0 ? 0 : difference / std::sqrt(variance);
     return std::isnan(z) ? std::numeric_limits<double>::infinity() : z;
