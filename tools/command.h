@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 
 #include "core/base/error.h"
@@ -32,6 +33,16 @@ int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug
     fmt::print(stderr, "error: {} (this is a bug in {})\n", error.what(), app.get_name());
     return bug;
   }
+}
+
+// Finite and above 0. CLI11's own lets "nan" pass, and shows all digits of the largest double.
+inline CLI::Validator positiveNumber() {
+  return {[](std::string& text) {
+            double value = 0;
+            const bool fine = CLI::detail::lexical_cast(text, value) && value > 0;
+            return fine && std::isfinite(value) ? "" : "must be a number above 0, not " + text;
+          },
+          "NUMBER"};
 }
 
 // The words after the command's name, the last first.

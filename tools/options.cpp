@@ -4,6 +4,8 @@
 
 #include <charconv>
 
+#include "command.h"
+
 namespace pbrt {
 
 namespace {
@@ -23,22 +25,12 @@ void readRange(const std::string& text, Goal& goal) {
       Failure::usage);
 }
 
-// CLI11's own shows all digits of the largest double.
-CLI::Validator positive() {
-  return {[](std::string& text) {
-            double value = 0;
-            const bool fine = CLI::detail::lexical_cast(text, value) && value > 0;
-            return fine && std::isfinite(value) ? "" : "must be a number above 0, not " + text;
-          },
-          "NUMBER"};
-}
-
 // A duration in seconds: 30, 30s, 1.5m, 2h, 500ms.
 CLI::Validator seconds() {
   return CLI::AsNumberWithUnit(
              std::map<std::string, double>{{"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}},
              CLI::AsNumberWithUnit::UNIT_OPTIONAL, "DURATION") &
-         positive();
+         positiveNumber();
 }
 
 }  // namespace
@@ -62,7 +54,7 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("--target-error", o.goal.error,
                  "Render until the relative error, as estimated from the picture's own noise, is "
                  "this, e.g. 0.01")
-      ->check(positive());
+      ->check(positiveNumber());
   app.add_option("--write-every", o.goal.interval, "Write the picture so far this often, e.g. 10s")
       ->transform(seconds());
   app.add_option("--aov", o.aovs,

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tools/compare/metrics.h"
+
 namespace pbrt {
 
 double estimatedError(const Image& image) {
-  double sum = 0;
+  std::vector<double> relative;
   for (const char* c : {"R", "G", "B"}) {
     const std::vector<float>& values = *image.channel(c);
     const std::vector<float>& variances = *image.channel(std::string("Variance.") + c);
     for (std::size_t i = 0; i < values.size(); ++i)
-      sum += variances[i] / (static_cast<double>(values[i]) * values[i] + 0.01);
+      relative.push_back(variances[i] / (sqr(double{values[i]}) + 0.01));
   }
-  return std::sqrt(sum / (3.0 * static_cast<double>(image.channels[0].size())));
+  return std::sqrt(trimmedMean(std::move(relative)));
 }
 
 Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double> error) {
@@ -33,9 +35,9 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
   double part = static_cast<double>(done) / (done + left), whole = done + left;
   if (done > 0) {
     if (goal_.seconds) {
-      const double room = (*goal_.seconds - seconds) / perSample;
-      wanted = std::min(wanted, room < 1 ? 0 : room);
-      whole = std::min(whole, done + std::max(0.0, room));
+      const double room = std::max(0.0, (*goal_.seconds - seconds) / perSample);
+      wanted = std::min(wanted, room);
+      whole = std::min(whole, done + room);
     }
     if (goal_.interval)
       wanted = std::min(wanted, std::max(1.0, (*goal_.interval - sinceLook) / perSample));
@@ -43,7 +45,7 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
       // The error falls with the root of the number of samples.
       const double needed = done * std::pow(*error / *goal_.error, 2);
       if (done < kEnoughForVariance)
-        wanted = std::min(wanted, double{kEnoughForVariance});
+        wanted = std::min(wanted, static_cast<double>(kEnoughForVariance - done));
       else if (*error <= *goal_.error)
         wanted = 0;
       else

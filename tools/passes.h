@@ -21,7 +21,8 @@ struct Goal {
 };
 
 // The relative error of a picture as its own channels Variance.* have it: the root of relMSE
-// (tools/compare/metrics.h) with the estimated variance of each pixel in place of its error.
+// (tools/compare/metrics.h) with the variance of each pixel in place of its squared error. An
+// estimate: too large for samplers better than random, too small while rare bright light is missed.
 double estimatedError(const Image& image);
 
 // Splits a render into passes so that its ends and looks fall between two of them: only there have

@@ -6,6 +6,18 @@
 
 namespace pbrt {
 
+double trimmedMean(std::vector<double> terms) {
+  // A few terms of dark pixels with a firefly would outweigh all others.
+  if (std::all_of(terms.begin(), terms.end(), [](double t) { return std::isfinite(t); })) {
+    const auto dropped = static_cast<std::ptrdiff_t>(terms.size() / 1000);
+    std::nth_element(terms.begin(), terms.begin() + dropped, terms.end(), std::greater<>());
+    terms.erase(terms.begin(), terms.begin() + dropped);
+  }
+  double sum = 0;
+  for (const double term : terms) sum += term;
+  return sum / static_cast<double>(terms.size());
+}
+
 Errors measureErrors(const Image& reference, const Image& test) {
   if (reference.window != test.window || reference.window.empty())
     throw Error("the pictures do not have the same pixels", Failure::usage);
@@ -37,15 +49,7 @@ Errors measureErrors(const Image& reference, const Image& test) {
   e.meanReference /= n;
   e.meanTest /= n;
 
-  // A few terms of dark pixels with a firefly would outweigh all others.
-  if (std::isfinite(e.mse)) {
-    const auto dropped = static_cast<std::ptrdiff_t>(relative.size() / 1000);
-    std::nth_element(relative.begin(), relative.begin() + dropped, relative.end(),
-                     std::greater<>());
-    relative.erase(relative.begin(), relative.begin() + dropped);
-  }
-  for (const double term : relative) e.relMse += term;
-  e.relMse /= static_cast<double>(relative.size());
+  e.relMse = trimmedMean(std::move(relative));
   return e;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "clock.h"
 #include "core/scene/render.h"
 #include "tools/compare/flip.h"
@@ -17,6 +19,7 @@ struct Rendering {
   Film film;
   std::unique_ptr<Sampler> sampler;
   Run run;
+  std::uint64_t badSamples = 0;  // as in RenderControl
 
   Rendering(const Variant& variant, std::uint64_t seed, std::uint32_t samplesPerPixel)
       : film(variant.scene->film()),
@@ -33,9 +36,10 @@ struct Rendering {
     run.cpuSeconds += clock.cpuSeconds();
     run.rays += control.rays;
     run.samples = endSample;
+    badSamples += control.badSamples;
   }
 
-  // As many whole samples as fit, one at least.
+  // As many whole samples as come nearest to the time, one at least.
   void advanceUntil(const Scene& scene, double seconds, int threads) {
     while (true) {
       const double room = run.samples == 0 ? 1 : (seconds / run.seconds - 1) * run.samples;
@@ -171,6 +175,7 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
 
       Image image = rendering->image();
       Run run = rendering->run;
+      curves[v].badSamples += std::exchange(rendering->badSamples, 0);
       if (!plan.progressive) rendering.reset();
       run.errors = measureErrors(references[v]->image, image);
       run.flip = flip(references[v]->image, image).mean;
@@ -192,13 +197,14 @@ Reference renderReference(const Variant& variant, std::uint32_t samples, int thr
   // Far from any seed that somebody counts up to.
   constexpr std::uint64_t kSeed = 0x7ef0000000000000;
   const std::uint32_t half = std::max(1U, samples / 2);
+  Reference reference;
   std::array<Image, 2> images;
   for (std::size_t i = 0; i < 2; ++i) {
     Rendering rendering(variant, kSeed + i, half);
     rendering.advance(*variant.scene, half, threads);
     images[i] = rendering.image();
+    reference.badSamples += rendering.badSamples;
   }
-  Reference reference;
   reference.scene = variant.name;
   reference.samples = 2 * half;
   reference.image = images[0];
@@ -225,15 +231,24 @@ Reference readReference(const std::filesystem::path& file) {
   const Image& image = reference.image;
   reference.scene = file.stem().string();
   reference.description = file.filename().string();
-  for (const char* name : kChannels)
-    if (image.channel(name) == nullptr)
-      throw Error(fmt::format("{} has no channel {}", file.string(), name), Failure::usage);
-  if (const double samples = image.number("samplesPerPixel", 0); samples >= 1)
+  const double samples = image.number("samplesPerPixel", 0);
+  if (samples >= 1 && samples <= std::numeric_limits<std::uint32_t>::max())
     reference.samples = static_cast<std::uint32_t>(samples);
+  const auto checked = [&](const std::string& name) {
+    const std::vector<float>* const values = image.channel(name);
+    if (values &&
+        !std::all_of(values->begin(), values->end(), [](float v) { return std::isfinite(v); }))
+      throw Error(fmt::format("{}: channel {} holds values that are not a number or infinite",
+                              file.string(), name),
+                  Failure::io);
+    return values;
+  };
   double sum = 0;
-  bool stated = true;
-  for (const char* name : kChannels) {
-    const auto* variances = image.channel(std::string("Variance.") + name);
+  bool stated = samples >= 2;  // fewer state no noise
+  for (const std::string name : kChannels) {
+    if (!checked(name))
+      throw Error(fmt::format("{} has no channel {}", file.string(), name), Failure::io);
+    const std::vector<float>* const variances = checked("Variance." + name);
     stated = stated && variances != nullptr;
     if (variances)
       for (const float v : *variances) sum += v / (3.0 * static_cast<double>(variances->size()));

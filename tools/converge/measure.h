@@ -27,6 +27,7 @@ struct Reference {
   std::string description;               // where it comes from
   std::optional<std::uint32_t> samples;  // per pixel
   std::optional<double> mse;             // expected, of itself
+  std::uint64_t badSamples = 0;          // as in RenderControl
   Image image;
   Blocks blocks;
 };
@@ -57,6 +58,7 @@ struct Curve {
   // are several. Empty if fewer than three points stand out of the reference's noise.
   std::optional<Estimate> slope;
   int slopePoints = 0;
+  std::uint64_t badSamples = 0;  // of all renders, as in RenderControl
 };
 
 struct Plan {
@@ -76,7 +78,8 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
 
 // Renders two halves with seeds of their own; how they differ tells the error of their mean.
 Reference renderReference(const Variant& variant, std::uint32_t samples, int threads);
-// From an EXR file. Its error is known if it states its variance. Throws Error.
+// From an EXR file. Its error is known if it states its variance and was taken from two samples at
+// least. Throws Error, Failure::io, if it cannot be read or holds no finite R, G and B.
 Reference readReference(const std::filesystem::path& file);
 
 }  // namespace pbrt

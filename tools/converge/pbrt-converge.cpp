@@ -58,11 +58,13 @@ void defineOptions(CLI::App& app, Options& o) {
                  "Statements for rendered references, as in --with");
   app.add_option("--min-spp", o.minSamples, "Samples per pixel of the first snapshot; then doubled")
       ->check(CLI::Range(1, kMost));
-  app.add_option("--max-spp", o.maxSamples, "Samples per pixel of the last snapshot (default 256)")
+  app.add_option("--max-spp", o.maxSamples,
+                 "The most samples per pixel of a snapshot (default 256)")
       ->check(CLI::Range(1, kMost));
   app.add_option("--times", o.times, "Snapshots after so many seconds of rendering, e.g. 1,2,4")
       ->delimiter(',')
-      ->check(CLI::Range(1e-3, 1e9));
+      ->excludes("--min-spp", "--max-spp")
+      ->check(positiveNumber());
   app.add_flag("--progressive", o.progressive,
                "Snapshots of one growing render, not a render for every number of samples; always "
                "so with --times");
@@ -84,7 +86,7 @@ void defineOptions(CLI::App& app, Options& o) {
 Plan planOf(const Options& o) {
   Plan plan;
   plan.times = o.times;
-  if (!std::is_sorted(o.times.begin(), o.times.end()))
+  if (std::adjacent_find(o.times.begin(), o.times.end(), std::greater_equal()) != o.times.end())
     throw Error("--times must grow", Failure::usage);
   if (o.minSamples > o.maxSamples) throw Error("--min-spp is more than --max-spp", Failure::usage);
   if (o.times.empty())
@@ -105,10 +107,9 @@ std::vector<Variant> buildVariants(const Options& o, PluginLoader& loader) {
   for (const std::string& scene : o.scenes)
     for (const Change& change : changes) {
       Variant& v = variants.emplace_back(buildVariant(scene, change, loader, o.build));
-      v.label = changes.size() == 1 && change.label.empty() ? v.name
-                : o.scenes.size() == 1                      ? change.label
+      v.label = change.label.empty()   ? v.name
+                : o.scenes.size() == 1 ? change.label
                                        : fmt::format("{} {}", v.name, change.label);
-      if (v.label.empty()) v.label = v.name;
     }
   return variants;
 }
@@ -118,9 +119,20 @@ std::string commandLine(int argc, char** argv) {
   std::string line = "pbrt-converge";
   for (int i = 1; i < argc; ++i) {
     const std::string_view word = argv[i];
-    const bool plain = !word.empty() &&
-                       word.find_first_of(" \t\n\"'$&|;<>()*?[]\\#~`!{}") == std::string_view::npos;
-    line += plain ? fmt::format(" {}", word) : fmt::format(" '{}'", word);
+    line += ' ';
+    if (!word.empty() &&
+        word.find_first_of(" \t\n\"'$&|;<>()*?[]\\#~`!{}") == std::string_view::npos) {
+      line += word;
+      continue;
+    }
+    line += '\'';
+    for (const char c : word) {
+      if (c == '\'')
+        line += "'\\''";  // nothing is special within the quotation but its end
+      else
+        line += c;
+    }
+    line += '\'';
   }
   return line;
 }
@@ -143,24 +155,38 @@ void makeFolder(const fs::path& folder) {
   if (error)
     throw Error(fmt::format("cannot make the folder {}: {}", folder.string(), error.message()),
                 Failure::io);
-  checkReplaceable(folder / "index.html");
+  for (const char* file : {"report.json", "report.csv", "index.html"})
+    checkReplaceable(folder / file);
+}
+
+// Tells of samples that were not a number: they bias what was measured.
+void noteBadSamples(Report& report, const Reporter& say) {
+  const auto note = [&](const std::string& whose, std::uint64_t bad) {
+    if (bad == 0) return;
+    report.notes.push_back(fmt::format(
+        "{}: {} samples were not a number or infinite; they count as black", whose, bad));
+    say({Severity::warning, report.notes.back()});
+  };
+  for (const Reference& r : report.references) note("reference " + r.description, r.badSamples);
+  for (std::size_t v = 0; v < report.curves.size(); ++v)
+    note((*report.variants)[v].label, report.curves[v].badSamples);
 }
 
 void converge(Options& o, const std::string& command) {
   if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
   o.build.aovs = kVariance;
   o.build.report = [&](const Diagnostic& d) {
-    if (!o.quiet) fmt::print(stderr, "{}\n", format(d));
+    if (!o.quiet && d.severity != Severity::note) fmt::print(stderr, "{}\n", format(d));
   };
   const std::size_t given = o.references.size();
   if (given > 1 && given != o.scenes.size())
     throw Error("one --reference for all scenes, or one for each", Failure::usage);
   const Plan plan = planOf(o);
-  const fs::path out = o.out;
-  makeFolder(out);  // before the work, which may be long
 
   PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
   const std::vector<Variant> variants = buildVariants(o, loader);
+  const fs::path out = o.out;
+  makeFolder(out);  // before the work, which may be long
   Report report;
   report.command = command;
   report.threads = o.build.threads ? o.build.threads : defaultThreads();
@@ -181,8 +207,9 @@ void converge(Options& o, const std::string& command) {
   report.curves = measure(variants, references, plan, [&](const std::string& what) {
     if (!o.quiet) fmt::print(stderr, "{}\n", what);
   });
+  noteBadSamples(report, o.build.report);
   const nlohmann::ordered_json json = toJson(report);
-  writeFile(out / "report.json", json.dump(1));
+  writeFile(out / "report.json", toText(json, 1));
   writeFile(out / "report.csv", toCsv(json));
   writeFile(out / "index.html", toHtml(json));
   if (!o.quiet) fmt::print("{}{}\n", toTable(json), (out / "index.html").string());

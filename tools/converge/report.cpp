@@ -38,9 +38,9 @@ Image colourOnly(const Image& image) {
 }
 
 Json toJson(const Snapshot& s) {
-  const Run& first = s.runs.front();
   const auto mean = [&](auto member) { return s.mean([&](const Run& r) { return member(r); }); };
-  Json json{{"samples", first.samples}, {"seeds", s.runs.size()}};
+  const double samples = mean([](const Run& r) { return r.samples; }).value;
+  Json json{{"samples", std::llround(samples)}, {"seeds", s.runs.size()}};
   put(json, "seconds", mean([](const Run& r) { return r.seconds; }));
   const double cpu = mean([](const Run& r) { return r.cpuSeconds; }).value;
   json["cpuSeconds"] = cpu;
@@ -125,10 +125,14 @@ Json toJson(const Report& report) {
   return json;
 }
 
+std::string toText(const Json& report, int indent) {
+  return report.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
 std::string toHtml(const Json& report) {
   // To a browser "<" in a script may mean its end, or a comment; in a string \u003c is the same.
   std::string numbers;
-  for (const char c : report.dump()) {
+  for (const char c : toText(report, -1)) {
     if (c == '<')
       numbers += "\\u003c";
     else
@@ -172,9 +176,12 @@ std::string toCsv(const Json& report) {
 }
 
 std::string toTable(const Json& report) {
+  std::size_t longest = 0;
+  for (const Json& v : report["variants"])
+    longest = std::max(longest, v["label"].get_ref<const std::string&>().size());
   std::string table =
-      fmt::format("{:<36} {:>8} {:>9} {:>9} {:>10} {:>10} {:>7} {:>7} {:>15}\n", "", "samples",
-                  "render s", "CPU s", "RMSE", "relMSE", "FLIP", "biased", "slope");
+      fmt::format("{:<{}} {:>8} {:>9} {:>9} {:>10} {:>10} {:>7} {:>7} {:>15}\n", "", longest,
+                  "samples", "render s", "CPU s", "RMSE", "relMSE", "FLIP", "biased", "slope");
   const auto number = [](const Json& value, int digits = 4) {
     return value.is_null() ? std::string("-") : fmt::format("{:.{}g}", value.get<double>(), digits);
   };
@@ -189,10 +196,10 @@ std::string toTable(const Json& report) {
     const std::string biased = s["biasShare"].is_null()
                                    ? "-"
                                    : fmt::format("{:.1f} %", 100 * s["biasShare"].get<double>());
-    table += fmt::format("{:<36} {:>8} {:>9} {:>9} {:>10} {:>10} {:>7} {:>7} {:>15}\n",
-                         v["label"].get<std::string>(), s["samples"].dump(), number(s["seconds"]),
-                         number(s["cpuSeconds"]), number(s["rmse"]), number(s["relMse"]),
-                         number(s["flip"], 3), biased, slope);
+    table += fmt::format("{:<{}} {:>8} {:>9} {:>9} {:>10} {:>10} {:>7} {:>7} {:>15}\n",
+                         v["label"].get<std::string>(), longest, s["samples"].dump(),
+                         number(s["seconds"]), number(s["cpuSeconds"]), number(s["rmse"]),
+                         number(s["relMse"]), number(s["flip"], 3), biased, slope);
   }
   return table;
 }

@@ -24,6 +24,10 @@ struct Report {
 // The contents of report.json; the page draws itself from the same, tools/converge/report.html.
 nlohmann::ordered_json toJson(const Report& report);
 
+// As text, indented by so many spaces a level, on one line if -1; bytes that are no UTF-8 are
+// replaced.
+std::string toText(const nlohmann::ordered_json& report, int indent);
+
 // The page: report.html with its style, its script and the numbers in it.
 std::string toHtml(const nlohmann::ordered_json& report);
 
