@@ -110,7 +110,9 @@ struct TileJob {
 void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film& film,
                                 RenderControl& control) const {
   // A pixel's samples share its area: each stands for 1 / n of it.
-  const float scale = 1 / std::sqrt(static_cast<float>(sampler.samplesPerPixel()));
+  const float samples = control.samplesPerPixel ? static_cast<float>(control.samplesPerPixel)
+                                                : static_cast<float>(sampler.samplesPerPixel());
+  const float scale = 1 / std::sqrt(samples);
   const TileJob job{*this, world, film, control, scale};
   const int threads = control.threads > 0 ? control.threads : defaultThreads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);

@@ -14,6 +14,8 @@ struct RenderControl {
   std::uint32_t firstSample = 0;  // of each pixel
   std::uint32_t endSample = 1;    // one past the last
   int threads = 0;                // 0: all that the process may use
+  // How many samples share a pixel once it is whole: textures are filtered the finer, the more.
+  std::uint32_t samplesPerPixel = 0;  // 0: those of the sampler
 
   std::atomic<bool> stop{false};  // ends the render after the tiles in progress
   std::atomic<int> tilesDone{0};

@@ -19,17 +19,23 @@ struct Rendering {
   Film film;
   std::unique_ptr<Sampler> sampler;
   Run run;
+  int threads;
+  std::uint32_t textureSamples;
   std::uint64_t badSamples = 0;  // as in RenderControl
 
-  Rendering(const Variant& variant, std::uint64_t seed, std::uint32_t samplesPerPixel)
+  Rendering(const Variant& variant, std::uint64_t seed, std::uint32_t samplesPerPixel,
+            int maxThreads, std::uint32_t samplesOfTextures)
       : film(variant.scene->film()),
-        sampler(variant.scene->makeSampler(seed, static_cast<int>(samplesPerPixel))) {}
+        sampler(variant.scene->makeSampler(seed, static_cast<int>(samplesPerPixel))),
+        threads(maxThreads),
+        textureSamples(samplesOfTextures) {}
 
-  void advance(const Scene& scene, std::uint32_t endSample, int threads) {
+  void advance(const Scene& scene, std::uint32_t endSample) {
     RenderControl control;
     control.firstSample = run.samples;
     control.endSample = endSample;
     control.threads = threads;
+    control.samplesPerPixel = textureSamples;
     const Clock clock;
     scene.integrator().render(scene, *sampler, film, control);
     run.seconds += clock.seconds();
@@ -40,13 +46,13 @@ struct Rendering {
   }
 
   // As many whole samples as come nearest to the time, one at least.
-  void advanceUntil(const Scene& scene, double seconds, int threads) {
+  void advanceUntil(const Scene& scene, double seconds) {
     while (true) {
       const double room = run.samples == 0 ? 1 : (seconds / run.seconds - 1) * run.samples;
       if (room < 0.5) return;
       const auto step = static_cast<std::uint32_t>(
           std::clamp(room, 1.0, std::max(1.0, static_cast<double>(run.samples))));
-      advance(scene, run.samples + step, threads);
+      advance(scene, run.samples + step);
     }
   }
 
@@ -94,16 +100,18 @@ std::optional<Estimate> slopeOfSeed(const std::vector<Snapshot>& snapshots, std:
   return slopeOf(x, y);
 }
 
-void setSlope(Curve& curve, int seeds, const Reference& reference) {
+void setSlope(Curve& curve, const Plan& plan, const Reference& reference) {
   std::vector<double> slopes;
   std::optional<Estimate> one;
-  for (int s = 0; s < seeds; ++s) {
+  for (int s = 0; s < plan.seeds; ++s) {
     one = slopeOfSeed(curve.snapshots, static_cast<std::size_t>(s), reference.mse.value_or(0),
                       curve.slopePoints);
     if (!one) return;
     slopes.push_back(one->value);
   }
-  curve.slope = seeds > 1 ? meanOf(slopes) : one;
+  // The points of a growing render are not independent: how they scatter tells no error.
+  if (plan.progressive) one->error.reset();
+  curve.slope = plan.seeds > 1 ? meanOf(slopes) : one;
 }
 
 }  // namespace
@@ -166,15 +174,21 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
         const std::uint32_t whole =
             timed ? static_cast<std::uint32_t>(scene.sampler().samplesPerPixel())
                   : (plan.progressive ? plan.samples.back() : plan.samples[level]);
-        rendering.emplace(variants[v], plan.firstSeed + seed, whole);
+        rendering.emplace(variants[v], plan.firstSeed + seed, whole, plan.threads,
+                          plan.textureSamples);
       }
       if (timed)
-        rendering->advanceUntil(scene, plan.times[level], plan.threads);
+        rendering->advanceUntil(scene, plan.times[level]);
       else
-        rendering->advance(scene, plan.samples[level], plan.threads);
+        rendering->advance(scene, plan.samples[level]);
 
+      const Clock taking;
       Image image = rendering->image();
+      curves[v].pictureSeconds += taking.seconds();
       Run run = rendering->run;
+      const bool again = level > 0 && plan.progressive;  // all but the last pass is known
+      curves[v].renderSeconds +=
+          run.seconds - (again ? curves[v].snapshots[level - 1].runs[seed].seconds : 0);
       curves[v].badSamples += std::exchange(rendering->badSamples, 0);
       if (!plan.progressive) rendering.reset();
       run.errors = measureErrors(references[v]->image, image);
@@ -189,7 +203,7 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
     said(timed ? fmt::format("{:g} s each: {:.1f} s", plan.times[level], clock.seconds())
                : fmt::format("{} samples: {:.1f} s", plan.samples[level], clock.seconds()));
   }
-  for (std::size_t v = 0; v < n; ++v) setSlope(curves[v], plan.seeds, *references[v]);
+  for (std::size_t v = 0; v < n; ++v) setSlope(curves[v], plan, *references[v]);
   return curves;
 }
 
@@ -200,8 +214,8 @@ Reference renderReference(const Variant& variant, std::uint32_t samples, int thr
   Reference reference;
   std::array<Image, 2> images;
   for (std::size_t i = 0; i < 2; ++i) {
-    Rendering rendering(variant, kSeed + i, half);
-    rendering.advance(*variant.scene, half, threads);
+    Rendering rendering(variant, kSeed + i, half, threads, 2 * half);
+    rendering.advance(*variant.scene, half);
     images[i] = rendering.image();
     reference.badSamples += rendering.badSamples;
   }

@@ -59,6 +59,8 @@ struct Curve {
   std::optional<Estimate> slope;
   int slopePoints = 0;
   std::uint64_t badSamples = 0;  // of all renders, as in RenderControl
+  double renderSeconds = 0;      // of all of them
+  double pictureSeconds = 0;     // for taking pictures from the film, which is no rendering
 };
 
 struct Plan {
@@ -68,6 +70,9 @@ struct Plan {
   std::uint64_t firstSeed = 1;
   int seeds = 1;
   int threads = 0;
+  // Textures are filtered for so many samples per pixel in all snapshots, as in the reference:
+  // otherwise they would not all converge to the same picture. 0: for the scene's own number.
+  std::uint32_t textureSamples = 0;
 };
 
 // One curve per variant; reference[i] is that of variant i. The turns change with every snapshot,

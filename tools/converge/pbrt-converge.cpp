@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "core/base/parallel.h"
@@ -137,13 +138,19 @@ std::string commandLine(int argc, char** argv) {
   return line;
 }
 
+int referenceSamples(const Options& o) {
+  if (o.referenceSamples) return o.referenceSamples;
+  if (!o.times.empty()) return 1024;
+  return static_cast<int>(std::min<std::int64_t>(std::int64_t{16} * o.maxSamples, kMost));
+}
+
+bool isPicture(const fs::path& file) {
+  return file.extension() == ".exr";
+}
+
 Reference makeReference(const Options& o, const fs::path& file, PluginLoader& loader) {
-  if (file.extension() == ".exr") return readReference(file);
-  const int samples =
-      o.referenceSamples ? o.referenceSamples
-      : o.times.empty()
-          ? static_cast<int>(std::min<std::int64_t>(std::int64_t{16} * o.maxSamples, kMost))
-          : 1024;
+  if (isPicture(file)) return readReference(file);
+  const int samples = referenceSamples(o);
   const Variant variant = buildVariant(file, readChange(o.referenceChange), loader, o.build);
   if (!o.quiet) fmt::print(stderr, "reference of {}: {} samples\n", variant.name, samples);
   return renderReference(variant, static_cast<std::uint32_t>(samples), o.build.threads);
@@ -157,6 +164,13 @@ void makeFolder(const fs::path& folder) {
                 Failure::io);
   for (const char* file : {"report.json", "report.csv", "index.html"})
     checkReplaceable(folder / file);
+}
+
+// Scenes of the same name in different folders are different scenes.
+void nameApart(std::vector<Reference>& references) {
+  std::map<std::string, int> seen;
+  for (Reference& r : references)
+    if (const int n = ++seen[r.scene]; n > 1) r.scene += fmt::format(" ({})", n);
 }
 
 // Tells of samples that were not a number: they bias what was measured.
@@ -181,7 +195,11 @@ void converge(Options& o, const std::string& command) {
   const std::size_t given = o.references.size();
   if (given > 1 && given != o.scenes.size())
     throw Error("one --reference for all scenes, or one for each", Failure::usage);
-  const Plan plan = planOf(o);
+  if (given && std::all_of(o.references.begin(), o.references.end(), isPicture) &&
+      (o.referenceSamples || !o.referenceChange.empty()))
+    throw Error("--reference-spp and --reference-with are for references to be rendered",
+                Failure::usage);
+  Plan plan = planOf(o);
 
   PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
   const std::vector<Variant> variants = buildVariants(o, loader);
@@ -194,6 +212,9 @@ void converge(Options& o, const std::string& command) {
   for (std::size_t i = 0; i < (given == 1 ? 1 : o.scenes.size()); ++i)
     report.references.push_back(
         makeReference(o, given == 0 ? o.scenes[i] : o.references[i], loader));
+  nameApart(report.references);
+  // A picture says how many samples its textures were filtered for.
+  plan.textureSamples = report.references[0].samples.value_or(0);
   std::vector<const Reference*> references;
   for (std::size_t v = 0; v < variants.size(); ++v) {
     const std::size_t scene = v / (variants.size() / o.scenes.size());
@@ -208,6 +229,15 @@ void converge(Options& o, const std::string& command) {
     if (!o.quiet) fmt::print(stderr, "{}\n", what);
   });
   noteBadSamples(report, o.build.report);
+  double rendering = 0, pictures = 0;
+  for (const Curve& curve : report.curves) {
+    rendering += curve.renderSeconds;
+    pictures += curve.pictureSeconds;
+  }
+  report.notes.push_back(
+      fmt::format("{:.1f} s of rendering; taking the pictures from the film, not counted, {:.2g} % "
+                  "of that",
+                  rendering, 100 * pictures / rendering));
   const nlohmann::ordered_json json = toJson(report);
   writeFile(out / "report.json", toText(json, 1));
   writeFile(out / "report.csv", toCsv(json));
