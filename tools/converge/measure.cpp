@@ -158,18 +158,19 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
   const std::size_t levels = timed ? plan.times.size() : plan.samples.size();
   const std::size_t n = variants.size(), seeds = static_cast<std::size_t>(plan.seeds);
   std::vector<Curve> curves(n);
-  std::vector<std::optional<Rendering>> renderings(n * seeds);
-  std::vector<std::vector<Blocks>> blocks(n);
-  for (std::size_t level = 0; level < levels; ++level) {
-    for (std::size_t v = 0; v < n; ++v) {
-      curves[v].snapshots.emplace_back().runs.resize(seeds);
-      blocks[v].assign(seeds, {});
-    }
+  std::vector<std::vector<std::vector<Blocks>>> blocks(n);  // by variant, level and seed
+  for (std::size_t v = 0; v < n; ++v) {
+    curves[v].snapshots.resize(levels);
+    for (Snapshot& snapshot : curves[v].snapshots) snapshot.runs.resize(seeds);
+    blocks[v].assign(levels, std::vector<Blocks>(seeds));
+  }
+  for (std::size_t seed = 0; seed < seeds; ++seed) {
     const Clock clock;
-    for (std::size_t turn = 0; turn < n * seeds; ++turn) {
-      const std::size_t seed = turn / n, v = (turn + seed + level) % n;
+    std::vector<std::optional<Rendering>> renderings(n);
+    for (std::size_t turn = 0; turn < levels * n; ++turn) {
+      const std::size_t level = turn / n, v = (turn + seed + level) % n;
       const Scene& scene = *variants[v].scene;
-      std::optional<Rendering>& rendering = renderings[v * seeds + seed];
+      std::optional<Rendering>& rendering = renderings[v];
       if (!rendering || !plan.progressive) {
         const std::uint32_t whole =
             timed ? static_cast<std::uint32_t>(scene.sampler().samplesPerPixel())
@@ -177,32 +178,30 @@ std::vector<Curve> measure(const std::vector<Variant>& variants,
         rendering.emplace(variants[v], plan.firstSeed + seed, whole, plan.threads,
                           plan.textureSamples);
       }
+      const double before = rendering->run.seconds;
       if (timed)
         rendering->advanceUntil(scene, plan.times[level]);
       else
         rendering->advance(scene, plan.samples[level]);
 
+      Curve& curve = curves[v];
+      Run run = rendering->run;
       const Clock taking;
       Image image = rendering->image();
-      curves[v].pictureSeconds += taking.seconds();
-      Run run = rendering->run;
-      const bool again = level > 0 && plan.progressive;  // all but the last pass is known
-      curves[v].renderSeconds +=
-          run.seconds - (again ? curves[v].snapshots[level - 1].runs[seed].seconds : 0);
-      curves[v].badSamples += std::exchange(rendering->badSamples, 0);
-      if (!plan.progressive) rendering.reset();
+      curve.pictureSeconds += taking.seconds();
+      curve.renderSeconds += run.seconds - before;
+      curve.badSamples += std::exchange(rendering->badSamples, 0);
       run.errors = measureErrors(references[v]->image, image);
       run.flip = flip(references[v]->image, image).mean;
-      Snapshot& snapshot = curves[v].snapshots.back();
-      snapshot.runs[seed] = run;
-      blocks[v][seed] = Blocks(image);
-      if (seed == 0) snapshot.picture = std::move(image);
+      curve.snapshots[level].runs[seed] = run;
+      blocks[v][level][seed] = Blocks(image);
+      if (seed == 0) curve.snapshots[level].picture = std::move(image);
     }
-    for (std::size_t v = 0; v < n; ++v)
-      setBias(curves[v].snapshots.back(), blocks[v], *references[v]);
-    said(timed ? fmt::format("{:g} s each: {:.1f} s", plan.times[level], clock.seconds())
-               : fmt::format("{} samples: {:.1f} s", plan.samples[level], clock.seconds()));
+    said(fmt::format("seed {}: {:.1f} s", plan.firstSeed + seed, clock.seconds()));
   }
+  for (std::size_t v = 0; v < n; ++v)
+    for (std::size_t level = 0; level < levels; ++level)
+      setBias(curves[v].snapshots[level], blocks[v][level], *references[v]);
   for (std::size_t v = 0; v < n; ++v) setSlope(curves[v], plan, *references[v]);
   return curves;
 }

@@ -75,8 +75,9 @@ struct Plan {
   std::uint32_t textureSamples = 0;
 };
 
-// One curve per variant; reference[i] is that of variant i. The turns change with every snapshot,
-// so that what else the machine does hurts all alike. `said` is called with what was done.
+// One curve per variant; references[i] is that of variant i. Seed after seed, and for each number
+// of samples every variant in turn: what else the machine does hurts all variants alike, and shows
+// in the spread of the seeds. `said` is called with what was done.
 std::vector<Curve> measure(const std::vector<Variant>& variants,
                            const std::vector<const Reference*>& references, const Plan& plan,
                            const std::function<void(const std::string&)>& said);
