@@ -35,8 +35,8 @@ const DialectDefaults& dialectDefaults(Dialect dialect);
 const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::string& name);
 
 // Changes parameters of a plug-in that mean something else in a generation to what they mean here:
-// the maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path in
-// v1 and v2 leaves out the first scattering.
+// the maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path
+// in v1 and v2 leaves out the first scattering.
 void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
                          ParamList& params);
 
