@@ -23,8 +23,8 @@ struct Errors {
 // pictures have R, G and B over the same, not empty, window.
 Errors measureErrors(const Image& reference, const Image& test);
 
-// The mean of the terms without the largest floor(N / 1000) of them, unless one is not finite. There
-// must be one.
+// The mean of the terms without the largest floor(N / 1000) of them, unless one is not finite.
+// There must be one.
 double trimmedMean(std::vector<double> terms);
 
 // The picture's pixel that stands at `index` of a channel.

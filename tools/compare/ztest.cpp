@@ -92,8 +92,8 @@ struct Sums {
     magnitude += std::max(std::abs(a.values[i]), std::abs(b.values[i]));
   }
 
-  // Rounding is noise as well: it lets equal pictures agree that have no other. Between compilers and
-  // machines it moves a pixel by up to some hundred units in the last place of a float.
+  // Rounding is noise as well: it lets equal pictures agree that have no other. Between compilers
+  // and machines it moves a pixel by up to some hundred units in the last place of a float.
   double z() const {
     constexpr double rounding = 1e-5;
     const double variance = std::max(separate, pooled) + sqr(rounding * magnitude);
