@@ -24,29 +24,15 @@ struct Side {
   double inverseSamples() const { return variances ? 1 / samples : 0; }
 };
 
-// An attribute that is a number of any type.
-double number(const Image& image, const char* name, double otherwise) {
-  const auto found = image.attributes.find(name);
-  if (found == image.attributes.end()) return otherwise;
-  return std::visit(
-      [&](const auto& value) {
-        if constexpr (std::is_arithmetic_v<std::decay_t<decltype(value)>>)
-          return static_cast<double>(value);
-        else
-          return otherwise;
-      },
-      found->second);
-}
-
 Side sideOf(const Image& image, const std::string& channel) {
   Side side;
   side.values = image.channel(channel)->data();
   const auto* variances = image.channel("Variance." + channel);
-  const double samples = number(image, "samplesPerPixel", 0);
+  const double samples = image.number("samplesPerPixel", 0);
   if (variances == nullptr || !(samples >= 2)) return side;
   side.variances = variances->data();
   side.samples = samples;
-  side.kappa = number(image, "filterNoise", 1);
+  side.kappa = image.number("filterNoise", 1);
   return side;
 }
 
