@@ -14,16 +14,13 @@ namespace pbrt {
 
 namespace {
 
-[[noreturn]] void cannotWrite(const fs::path& file, std::string_view why) {
-  throw Error(fmt::format("cannot write {}: {}", file.string(), why), Failure::io);
-}
-
 auto encoderFor(const fs::path& file) {
   std::string suffix = file.extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (suffix == ".exr") return encodeExr;
   if (suffix == ".png") return encodePng;
-  throw std::runtime_error("its name must end in .exr or .png");
+  throw Error(fmt::format("cannot write {}: its name must end in .exr or .png", file.string()),
+              Failure::io);
 }
 
 }  // namespace
@@ -46,20 +43,14 @@ double Image::number(std::string_view name, double otherwise) const {
       found->second);
 }
 
-void writeImage(const fs::path& file, const Image& image) try {
+void writeImage(const fs::path& file, const Image& image) {
   const auto encode = encoderFor(file);
-  Replacement replacement(file);
-  encode(replacement.stream(), image);
-  replacement.commit();
-} catch (const std::exception& error) {
-  cannotWrite(file, error.what());
+  replaceFile(file, [&](std::FILE* stream) { encode(stream, image); });
 }
 
-void checkWritable(const fs::path& file) try {
+void checkWritable(const fs::path& file) {
   encoderFor(file);
-  Replacement replacement(file);
-} catch (const std::exception& error) {
-  cannotWrite(file, error.what());
+  checkReplaceable(file);
 }
 
 }  // namespace pbrt

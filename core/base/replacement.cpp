@@ -67,12 +67,16 @@ void checkReplaceable(const fs::path& file) {
   named(file, [&] { Replacement replacement(file); });
 }
 
-void writeFile(const fs::path& file, std::string_view bytes) {
+void replaceFile(const fs::path& file, const std::function<void(std::FILE*)>& write) {
   named(file, [&] {
     Replacement replacement(file);
-    std::fwrite(bytes.data(), 1, bytes.size(), replacement.stream());
+    write(replacement.stream());
     replacement.commit();
   });
+}
+
+void writeFile(const fs::path& file, std::string_view bytes) {
+  replaceFile(file, [&](std::FILE* stream) { std::fwrite(bytes.data(), 1, bytes.size(), stream); });
 }
 
 }  // namespace pbrt

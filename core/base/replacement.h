@@ -3,6 +3,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <functional>
+#include <string_view>
 
 namespace pbrt {
 
@@ -28,7 +30,10 @@ class Replacement {
 // Throws Error, Failure::io, if a file of this name could not be written: ask before long work.
 void checkReplaceable(const std::filesystem::path& file);
 
-// Writes a whole file. Throws Error, Failure::io.
+// Writes a file, whole or not at all: `write` is given its open stream, and may throw. Throws
+// Error, Failure::io, with the file's name and the reason.
+void replaceFile(const std::filesystem::path& file, const std::function<void(std::FILE*)>& write);
+// The same for bytes that are at hand.
 void writeFile(const std::filesystem::path& file, std::string_view bytes);
 
 }  // namespace pbrt
