@@ -6,8 +6,6 @@ namespace pbrt {
 
 namespace {
 
-constexpr std::uint8_t kOfSurfaces = kAlbedo | kNormal | kPosition | kDepth;
-
 constexpr std::array<std::string_view, 6> kNames = {"variance", "albedo", "normal",
                                                     "position", "depth",  "samples"};
 
@@ -54,7 +52,7 @@ std::optional<std::uint8_t> aovByName(std::string_view name) {
 AovSums::AovSums(std::uint8_t stored, Point2i size, int tile, const DPoint3& origin)
     : stored_(stored), origin_(origin) {
   if (stores(kSampleCount)) counts_ = {size.x, size.y, tile};
-  if (stores(kOfSurfaces)) surfaces_ = {size.x, size.y, tile};
+  if (stores(kOfSurface)) surfaces_ = {size.x, size.y, tile};
 }
 
 void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {

@@ -22,6 +22,9 @@ enum Aov : std::uint8_t {
   kSampleCount = 32,  // samples: how many were taken in the pixel
 };
 
+// Those that tell of the surface that is seen.
+inline constexpr std::uint8_t kOfSurface = kAlbedo | kNormal | kPosition | kDepth;
+
 std::span<const std::string_view> aovNames();  // variance, albedo, normal, position, depth, samples
 std::optional<std::uint8_t> aovByName(std::string_view name);
 

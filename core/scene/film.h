@@ -42,8 +42,9 @@ class Film {
 
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)).
   void add(int tile, Point2 film, const Spectrum& L, float alpha);
-  // Whether add() of what a sample saw first is asked for.
-  bool storesSurfaces() const { return aovs_.stores(kAlbedo | kNormal | kPosition | kDepth); }
+  // Whether any of these is stored beside the picture.
+  bool stores(std::uint8_t aovs) const { return aovs_.stores(aovs); }
+  // Adds what a sample saw first, if the film stores any of kOfSurface.
   void add(int tile, Point2i pixel, const FirstSurface& surface);
 
   // The variance of a pixel over that of the mean of its own samples, where all pixels are alike:

@@ -90,7 +90,7 @@ struct TileJob {
         }
       }
       film.add(tile, worker.samples[i].film, L, hit.found() ? 1 : 0);
-      if (hit.found() && film.storesSurfaces()) {
+      if (hit.found() && film.stores(kOfSurface)) {
         const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
         film.add(tile, pixel, firstSurface(camera.ray, hit, worker.scratch));
         worker.scratch.release();
@@ -100,8 +100,12 @@ struct TileJob {
 
   FirstSurface firstSurface(const RayDifferential& ray, const Hit& hit, Scratch& scratch) const {
     SurfaceInteraction at = world.surface(ray, hit);
-    const Bsdf bsdf = world.bsdf(at, scratch);
-    return {bsdf.rho(at.wo), at.ns, at.p, glm::distance(ray.o, at.p)};
+    Spectrum albedo(0);
+    if (film.stores(kAlbedo | kNormal)) {  // a bump map turns the normal
+      const Bsdf bsdf = world.bsdf(at, scratch);
+      if (film.stores(kAlbedo)) albedo = bsdf.rho(at.wo);
+    }
+    return {albedo, at.ns, at.p, glm::distance(ray.o, at.p)};
   }
 };
 
