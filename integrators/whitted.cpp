@@ -31,10 +31,8 @@ class Whitted final : public SamplingIntegrator {
       ShadowedSum direct(world);
       for (const Light* light : world.lights()) {
         const LightSample s = light->sample(at.p, sampler.get2D());
-        if (s.pdf == 0 || isBlack(s.L)) continue;
-        const Spectrum f = bsdf.f(at.wo, s.wi);
-        if (!isBlack(f))
-          direct.add(shadowRay(at, s), f * s.L * (std::abs(glm::dot(s.wi, at.ns)) / s.pdf));
+        const Spectrum unblocked = unshadowed(at, bsdf, s, 1, 0, kAllLobes);
+        if (!isBlack(unblocked)) direct.add(shadowRay(at, s), unblocked);
       }
       L += direct.sum();
     }
