@@ -263,6 +263,22 @@ Spectrum Params::spectrum(const std::string& name, const Spectrum& fallback,
   return p ? single<Spectrum>(*this, *p) : fallback;
 }
 
+std::optional<Spectrum> Params::optionalSpectrum(const std::string& name,
+                                                 std::string_view meaning) {
+  if (has(name)) return spectrum(name, Spectrum(0), meaning);
+  declare(name, "rgb", "-", meaning);
+  return {};
+}
+
+Spectrum Params::emission(const std::string& name, const Spectrum& fallback,
+                          std::string_view meaning) {
+  return spectrum(name, fallback, meaning);
+}
+
+float Params::refractiveIndex(const std::string& name, float fallback, std::string_view meaning) {
+  return positive(name, fallback, meaning);
+}
+
 // The texture that a parameter names, by one of the library's two functions.
 template <class T>
 std::shared_ptr<const Texture<T>> Params::named(
@@ -298,6 +314,13 @@ std::optional<Textured<float>> Params::optionalFloatTexture(const std::string& n
                                                             std::string_view meaning) {
   if (has(name)) return floatTexture(name, 0, meaning);
   declare(name, "float or texture", "-", meaning);
+  return {};
+}
+
+std::optional<Textured<Spectrum>> Params::optionalSpectrumTexture(const std::string& name,
+                                                                  std::string_view meaning) {
+  if (has(name)) return spectrumTexture(name, Spectrum(0), meaning);
+  declare(name, "rgb or texture", "-", meaning);
   return {};
 }
 

@@ -68,7 +68,15 @@ class Params {
   std::filesystem::path file(const std::string& name, std::string_view meaning);
   Point3 point(const std::string& name, const Point3& fallback, std::string_view meaning);
   Vec3 vector(const std::string& name, const Vec3& fallback, std::string_view meaning);
+
+  // -- colours, in linear Rec. 709 ----------------------------------------------------------------
+  // Of a surface: a reflectance, an index of refraction, a scale.
   Spectrum spectrum(const std::string& name, const Spectrum& fallback, std::string_view meaning);
+  std::optional<Spectrum> optionalSpectrum(const std::string& name, std::string_view meaning);
+  // Of a light.
+  Spectrum emission(const std::string& name, const Spectrum& fallback, std::string_view meaning);
+  // A number, or what a spectrum has at the sodium D line, 589.3 nm.
+  float refractiveIndex(const std::string& name, float fallback, std::string_view meaning);
 
   // -- values or textures ----------------------------------------------------------------------
   Textured<float> floatTexture(const std::string& name, float fallback, std::string_view meaning,
@@ -78,6 +86,8 @@ class Params {
   // As above with no default: empty if the parameter is absent.
   std::optional<Textured<float>> optionalFloatTexture(const std::string& name,
                                                       std::string_view meaning);
+  std::optional<Textured<Spectrum>> optionalSpectrumTexture(const std::string& name,
+                                                            std::string_view meaning);
   template <class T>  // float or Spectrum, for textures of either kind
   Textured<T> texture(const std::string& name, float fallback, std::string_view meaning);
 
