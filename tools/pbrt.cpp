@@ -48,7 +48,7 @@ void printStats(const Options& o, const Scene& scene, const PluginLoader& loader
   fmt::print("Rays      {} ({:.2f} Mrays/s)\n", control.rays.load(),
              static_cast<double>(control.rays) / (t.rendered - t.built) / 1e6);
   fmt::print("Scene     {} shapes, {} lights; seed {}\n", scene.shapes(), scene.lights().size(),
-             o.build.seed);
+             scene.seed());
   fmt::print("Memory    {:.1f} MiB at most\n", static_cast<double>(usage.ru_maxrss) / 1024);
   fmt::print("Plug-ins  {} opened of {}\n", loader.opened().size(), available);
   for (const LoadedPlugin& plugin : loader.opened())
@@ -66,7 +66,7 @@ void writePictures(const Options& o, Scene& scene, const Goal& goal, std::uint32
   image.attributes["samplesPerPixel"] = static_cast<int>(samples);
   image.attributes["filterNoise"] = static_cast<float>(scene.film().filterNoise());
   image.attributes["renderTimeSeconds"] = seconds;
-  image.attributes["seed"] = std::to_string(o.build.seed);
+  image.attributes["seed"] = std::to_string(scene.seed());
   image.attributes["scene"] = fmt::format("{}", fmt::join(o.files, " "));
   image.attributes["software"] = std::string("pbrt " PBRT_VERSION);
   for (const std::string& output : outputs) writeImage(output, image);

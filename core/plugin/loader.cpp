@@ -74,19 +74,22 @@ std::vector<fs::path> PluginLoader::searchPath(const std::string& extra) {
   return path;
 }
 
+// Its file; empty if there is none.
+fs::path PluginLoader::find(PluginKind kind, const std::string& name) const {
+  if (!isName(name)) return {};
+  for (const fs::path& directory : path_) {
+    const fs::path candidate = directory / kindFolder(kind) / (name + ".so");
+    if (std::error_code unreadable; fs::exists(candidate, unreadable))
+      return fs::absolute(candidate);
+  }
+  return {};
+}
+
 const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
   const auto key = std::pair(kind, name);
   if (const auto known = cache_.find(key); known != cache_.end()) return *known->second;
 
-  fs::path file;
-  if (isName(name))
-    for (const fs::path& directory : path_) {
-      const fs::path candidate = directory / kindFolder(kind) / (name + ".so");
-      if (std::error_code unreadable; fs::exists(candidate, unreadable)) {
-        file = fs::absolute(candidate);
-        break;
-      }
-    }
+  const fs::path file = find(kind, name);
   if (file.empty()) {
     const std::vector<std::string> names = available(kind);
     const std::string shown = name.size() > 60 ? name.substr(0, 60) + "..." : name;

@@ -27,12 +27,18 @@ class PluginLoader {
   // if there is one that cannot be used; the message names the file and the reason.
   const PluginInfo& open(PluginKind kind, const std::string& name);
 
+  // Whether there is a file for it; it may still be unusable.
+  bool has(PluginKind kind, const std::string& name) const {
+    return cache_.contains({kind, name}) || !find(kind, name).empty();
+  }
   // Names that could be opened, sorted; nothing is opened.
   std::vector<std::string> available(PluginKind kind) const;
   // What was opened so far, in order.
   const std::vector<LoadedPlugin>& opened() const { return opened_; }
 
  private:
+  std::filesystem::path find(PluginKind kind, const std::string& name) const;
+
   std::vector<std::filesystem::path> path_;
   std::map<std::pair<PluginKind, std::string>, const PluginInfo*> cache_;
   std::vector<LoadedPlugin> opened_;

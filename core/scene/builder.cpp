@@ -2,22 +2,83 @@
 
 #include <fmt/format.h>
 
-#include "core/base/parallel.h"
 #include "core/scene/scene_builder.h"
+#include "core/scene/translation.h"
 
 namespace pbrt {
 
-void SceneBuilder::handle(Directive&& d) {
-  if (worldSeen_ && !inWorld_)
-    throw Error(d.where, fmt::format("{} after WorldEnd: one scene makes one picture",
-                                     directiveName(d.kind)));
-  try {
-    if (transforms_.apply(d, factory_.dialect(), options_.report)) return;
-    refuseUnsupported(d);
-    if (handleStack(d) || handleOption(d) || handleAttribute(d) || handleWorld(d)) return;
-  } catch (const Error& error) {
-    throw error.at(d.where);
+namespace {
+
+// The plug-in that a statement makes, as the scene calls it.
+std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
+  using enum DirectiveKind;
+  switch (d.kind) {
+    case DirectiveKind::Shape:
+      return {{PluginKind::shape, d.words.at(0)}};
+    case DirectiveKind::Material:
+      return {{PluginKind::material, d.words.at(0)}};
+    case MakeNamedMaterial:
+      for (const Param& p : d.params)
+        if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
+            type && p.name == "type" && !type->empty())
+          return {{PluginKind::material, type->front()}};
+      return {};
+    case DirectiveKind::Texture:
+      return {{PluginKind::texture, d.words.at(2)}};
+    case LightSource:
+    case AreaLightSource:
+      return {{PluginKind::light, d.words.at(0)}};
+    case DirectiveKind::Camera:
+      return {{PluginKind::camera, d.words.at(0)}};
+    case DirectiveKind::Sampler:
+      return {{PluginKind::sampler, d.words.at(0)}};
+    case PixelFilter:
+      return {{PluginKind::filter, d.words.at(0)}};
+    case DirectiveKind::Integrator:
+    case SurfaceIntegrator:
+      return {{PluginKind::integrator, d.words.at(0)}};
+    default:
+      return {};
   }
+}
+
+}  // namespace
+
+void SceneBuilder::handle(Directive&& d) {
+  if (worldSeen_ && !inWorld_) {
+    if (!ended_)
+      factory_.attempt([&] {
+        throw Error(d.where, fmt::format("{} after WorldEnd: one scene makes one picture",
+                                         directiveName(d.kind)));
+      });
+    ended_ = true;
+    return;
+  }
+  factory_.attempt([&] {
+    try {
+      carryOut(std::move(d));
+    } catch (const Error& error) {
+      throw error.at(d.where);
+    }
+  });
+}
+
+void SceneBuilder::carryOut(Directive&& d) {
+  if (transforms_.apply(d, factory_.dialect(), options_.report)) return;
+  refuseUnsupported(d);
+  toThisGeneration(d);
+  if (handleStack(d) || handleOption(d) || handleAttribute(d)) return;
+  handleWorld(d);
+}
+
+// From here on parameters are called as they are here, and colours are Rec. 709.
+void SceneBuilder::toThisGeneration(Directive& d) const {
+  if (d.params.empty()) return;
+  if (const auto plugin = pluginOf(d))
+    translateParameters(factory_.dialect(), plugin->first, plugin->second, d.params);
+  if (colorSpace_ != ColorSpace::srgb)
+    for (Param& p : d.params)
+      if (p.type == ParamType::rgb) toRec709(p, colorSpace_);
 }
 
 void SceneBuilder::refuseUnsupported(const Directive& d) const {
@@ -53,7 +114,10 @@ bool SceneBuilder::handleStack(const Directive& d) {
 }
 
 void SceneBuilder::save(const Directive& d) {
-  stack_.push_back({attributes_, transforms_.current(), d.where, d.kind});
+  constexpr std::size_t kDeepest = 1000000;
+  if (stack_.size() >= kDeepest)
+    throw Error(d.where, fmt::format("blocks are nested more than {} deep", kDeepest));
+  stack_.push_back({attributes_, transforms_.current(), colorSpace_, d.where, d.kind});
 }
 
 void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
@@ -62,7 +126,10 @@ void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
   if (const DirectiveKind open = stack_.back().begin; open != begin)
     throw Error(d.where, fmt::format("{} without {}: what is open is {}", directiveName(d.kind),
                                      directiveName(begin), directiveName(open)));
-  if (begin != DirectiveKind::TransformBegin) attributes_ = std::move(stack_.back().attributes);
+  if (begin != DirectiveKind::TransformBegin) {
+    attributes_ = std::move(stack_.back().attributes);
+    colorSpace_ = stack_.back().colorSpace;
+  }
   transforms_.setCurrent(stack_.back().transform);
   stack_.pop_back();
 }
@@ -87,6 +154,7 @@ bool SceneBuilder::handleOption(Directive& d) {
     case SurfaceIntegrator:
       slot = &integrator_;
       break;
+    case Option:
     case Accelerator:       // the ray tree is Embree's
     case VolumeIntegrator:  // without a volume it does nothing
     case Renderer:
@@ -97,12 +165,29 @@ bool SceneBuilder::handleOption(Directive& d) {
   }
   if (inWorld_)
     throw Error(d.where, fmt::format("{} belongs before WorldBegin", directiveName(d.kind)));
+  if (d.kind == Option) setOption(d);
   if (slot == &camera_) {
     cameraFromWorld_ = transforms_.current();
     transforms_.name("camera", cameraFromWorld_.inverse());
   }
   if (slot) *slot = std::move(d);
   return true;
+}
+
+// Those of pbrt-v4 that change the picture are read; the others are for its own insides.
+void SceneBuilder::setOption(const Directive& d) {
+  Params p("Option", d.where, {&d.params}, nullptr, options_.report);
+  constexpr int kMost = std::numeric_limits<int>::max();
+  if (p.has("seed"))
+    seed_ = static_cast<std::uint64_t>(p.integer("seed", 0, 0, kMost, "of all random numbers"));
+  for (const char* name : {"disablepixeljitter", "disabletexturefiltering", "forcediffuse"})
+    if (p.flag(name, false, "")) p.warn(name, "has no effect here");
+  for (const char* name : {"disablewavelengthjitter", "pixelstats", "wavefront"})
+    p.flag(name, false, "");
+  for (const char* name : {"rendercoordsys", "msereferenceimage", "msereferenceout"})
+    p.text(name, "", "");
+  p.number("displacementedgescale", 1, "");
+  p.refuseUnread();
 }
 
 void SceneBuilder::beginWorld(const Directive& d) {
@@ -118,82 +203,22 @@ void SceneBuilder::beginWorld(const Directive& d) {
   transforms_.setBase(renderFromWorld);
 }
 
-bool SceneBuilder::handleAttribute(Directive& d) {
+void SceneBuilder::handleWorld(Directive& d) {
   using enum DirectiveKind;
-  switch (d.kind) {
-    case ReverseOrientation:
-      attributes_.reverse = !attributes_.reverse;
-      return true;
-    case DirectiveKind::Material:
-      attributes_.material =
-          std::make_shared<MaterialDefinition>(d.words.at(0), std::move(d.params), d.where);
-      return true;
-    case MakeNamedMaterial: {
-      const auto type = std::find_if(d.params.begin(), d.params.end(), [](const Param& p) {
-        return p.name == "type" && p.type == ParamType::string;
-      });
-      if (type == d.params.end())
-        throw Error(d.where, "MakeNamedMaterial needs a parameter \"string type\"");
-      const auto& words = std::get<std::vector<std::string>>(type->values);
-      if (words.size() != 1) throw Error(type->where, "\"type\" needs 1 string");
-      const std::string plugin = words[0];
-      d.params.erase(type);
-      auto named = std::make_shared<NamedMaterials>(*attributes_.namedMaterials);
-      (*named)[d.words.at(0)] = std::make_shared<MaterialDefinition>(plugin, std::move(d.params),
-                                                                     d.where, attributes_.textures);
-      attributes_.namedMaterials = std::move(named);
-      return true;
-    }
-    case NamedMaterial: {
-      const auto found = attributes_.namedMaterials->find(d.words.at(0));
-      if (found == attributes_.namedMaterials->end())
-        throw Error(d.wordsWhere.at(0),
-                    fmt::format("there is no named material \"{}\"{}", d.words[0],
-                                didYouMeanKey(d.words[0], *attributes_.namedMaterials)));
-      attributes_.material = found->second;
-      return true;
-    }
-    case DirectiveKind::Texture: {
-      if (!inWorld_) throw Error(d.where, "Texture belongs after WorldBegin");
-      const std::string& type = d.words.at(1);
-      const bool isSpectrum = type == "color" || type == "spectrum" || type == "rgb";
-      if (!isSpectrum && type != "float")
-        throw Error(
-            d.wordsWhere.at(1),
-            fmt::format("a texture is \"float\", \"color\" or \"spectrum\", not \"{}\"", type));
-      attributes_.textures = std::make_shared<TextureScope>(
-          attributes_.textures, d.words.at(0), isSpectrum,
-          TextureScope::Definition{d.words.at(2),
-                                   std::move(d.params),
-                                   d.where,
-                                   {transforms_.current(), transforms_.base()},
-                                   attributes_.textures});
-      return true;
-    }
-    default:
-      return false;
-  }
-}
-
-bool SceneBuilder::handleWorld(Directive& d) {
-  using enum DirectiveKind;
-  if (d.kind == WorldBegin) {
-    beginWorld(d);
-    return true;
-  }
-  if (d.kind == MediumInterface) return true;  // from nothing to nothing; see refuseUnsupported
+  if (d.kind == WorldBegin) return beginWorld(d);
+  if (d.kind == MediumInterface) return;  // from nothing to nothing; see refuseUnsupported
   if (!inWorld_)
     throw Error(d.where, fmt::format("{} belongs after WorldBegin", directiveName(d.kind)));
   switch (d.kind) {
     case WorldEnd:
       inWorld_ = false;
-      return true;
+      return;
     case AreaLightSource:
+      attributes_.areaLightDefaults = defaultsFor(AttributeTarget::light, d.words.at(0));
       attributes_.areaLight = std::make_shared<const Directive>(std::move(d));
-      return true;
+      return;
     case LightSource:
-      addLight(d);
-      return true;
+      return addLight(d);
     case DirectiveKind::Shape: {
       // An object's shapes live in a space of their own, which each instance places anew.
       const pbrt::Transform toGroup = openObject_
@@ -203,36 +228,67 @@ bool SceneBuilder::handleWorld(Directive& d) {
         openObject_->shapes.push_back({std::move(d), attributes_, toGroup});
       else
         addShape(d, attributes_, toGroup, scene_->root_);
-      return true;
+      return;
     }
     case ObjectBegin:
       if (openObject_) throw Error(d.where, "ObjectBegin inside an object");
       openObject_ = &(objects_[d.words.at(0)] = {});
       save(d);
-      return true;
+      return;
     case ObjectEnd:
       restore(d, ObjectBegin);
       openObject_ = nullptr;
-      return true;
+      return;
     case ObjectInstance:
-      addInstance(d);
-      return true;
+      return addInstance(d);
     default:
-      return false;
+      return;
   }
+}
+
+SceneReader::SceneReader(PluginLoader& loader, BuildOptions options)
+    : loader_(loader), options_(std::move(options)) {
+  if (!options_.dialect) return;
+  dialect_ = {*options_.dialect, {}, "--dialect says so"};
+  begin();
+}
+
+SceneReader::~SceneReader() = default;
+
+void SceneReader::begin() {
+  builder_ = std::make_unique<SceneBuilder>(loader_, options_, dialect_);
+  for (Directive& d : waiting_) {
+    builder_->handle(std::move(d));
+    d = Directive();  // frees the parameters that nobody kept
+  }
+  waiting_ = {};
+}
+
+void SceneReader::read(Directive&& d) {
+  if (builder_) return builder_->handle(std::move(d));
+  detector_.look(d);
+  waiting_.push_back(std::move(d));
+  if (!detector_.decided()) return;
+  dialect_ = detector_.result();
+  begin();
+}
+
+std::unique_ptr<Scene> SceneReader::finish() {
+  if (!builder_) {
+    dialect_ = detector_.result();
+    begin();
+  }
+  return builder_->finish();
 }
 
 std::unique_ptr<Scene> buildScene(std::vector<Directive> directives, PluginLoader& loader,
                                   const BuildOptions& options) {
-  const ThreadLimit limit(options.threads);
-  DetectedDialect dialect = detectDialect(directives);
-  if (options.dialect) dialect = {*options.dialect, {}, "--dialect says so"};
-  SceneBuilder builder(loader, options, dialect);
+  SceneReader reader(loader, options);
   for (Directive& d : directives) {
-    builder.handle(std::move(d));
-    d = Directive();  // frees the parameters that nobody kept
+    reader.read(std::move(d));
+    d = Directive();
   }
-  return builder.finish();
+  return reader.finish();
 }
 
 }  // namespace pbrt

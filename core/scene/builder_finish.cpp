@@ -30,6 +30,11 @@ Bounds2i SceneBuilder::cropBounds(Params& film, Point2i resolution) const {
                    std::ceil(size.y * std::min(crop[2], crop[3]))},
                   {std::ceil(size.x * std::max(crop[0], crop[1])),
                    std::ceil(size.y * std::max(crop[2], crop[3]))}};
+  const auto inPixels = film.integers("pixelbounds", "the part to render in pixels: x0 x1 y0 y1");
+  if (!inPixels.empty() && inPixels.size() != 4)
+    film.fail("pixelbounds", fmt::format("needs 4 numbers, not {}", inPixels.size()));
+  if (!inPixels.empty() && !options_.cropWindow)
+    bounds = intersect({{0, 0}, resolution}, {{inPixels[0], inPixels[2]}, {inPixels[1], inPixels[3]}});
   if (const auto& p = options_.pixelBounds)
     bounds = intersect({{0, 0}, resolution}, {{(*p)[0], (*p)[2]}, {(*p)[1], (*p)[3]}});
   if (bounds.empty())
@@ -37,12 +42,68 @@ Bounds2i SceneBuilder::cropBounds(Params& film, Point2i resolution) const {
   return bounds;
 }
 
-void SceneBuilder::makeCameraAndFilm() {
-  const Directive& filmStatement = option(film_, DirectiveKind::Film, "image");
-  if (filmStatement.words.at(0) != "image")
-    throw Error(filmStatement.wordsWhere.at(0),
-                fmt::format("there is no film \"{}\", only \"image\"", filmStatement.words[0]));
-  Params film("film/image", filmStatement.where, {&filmStatement.params}, nullptr, options_.report);
+// The film's name in its generation decides only what is stored beside the picture.
+std::uint8_t SceneBuilder::filmAovs(const Directive& film) const {
+  const std::vector<std::string> names = {"image", "rgb", "gbuffer", "spectral"};
+  const std::string& name = film.words.at(0);
+  if (name == "gbuffer") return kAlbedo | kNormal | kPosition | kDepth | kVariance;
+  if (name == "spectral")
+    factory_.report(Severity::warning, film.where,
+                    "film \"spectral\" is read as \"rgb\": light is carried as red, green and blue");
+  else if (std::find(names.begin(), names.end(), name) == names.end())
+    throw Error(film.wordsWhere.at(0), fmt::format("there is no film \"{}\" (it is one of {}){}",
+                                                   shown(name), fmt::join(names, ", "),
+                                                   didYouMean(name, names)));
+  return 0;
+}
+
+// pbrt-v4's sensor is exposed as long as the shutter is open, a second if nobody says more.
+float SceneBuilder::exposureTime() const {
+  if (factory_.dialect() != Dialect::v4 || !camera_) return 1;
+  std::array<float, 2> shutter = {0, 1};
+  for (const Param& p : camera_->params)
+    if (const auto* v = std::get_if<std::vector<float>>(&p.values); v && v->size() == 1) {
+      if (p.name == "shutteropen") shutter[0] = v->front();
+      if (p.name == "shutterclose") shutter[1] = v->front();
+    }
+  return shutter[1] > shutter[0] ? shutter[1] - shutter[0] : 1;
+}
+
+Film::Settings SceneBuilder::filmSettings(Params& film) const {
+  Film::Settings settings;
+  settings.scale = film.positive("scale", 1, "factor for every pixel value") *
+                   film.positive("iso", 100, "of pbrt-v4's sensor: pixel values go with it") / 100 *
+                   exposureTime();
+  settings.brightest =
+      std::min(film.positive("maxsampleluminance", kInfinity,
+                             "samples brighter than this are darkened to it"),
+               film.positive("maxcomponentvalue", kInfinity, "pbrt-v4's name of the same"));
+  for (const std::string& name :
+       film.choices("aov", aovNames(), "what to store beside the picture"))
+    settings.aovs |= *aovByName(name);
+  settings.aovs |= options_.aovs;
+  settings.origin = cameraFromWorld_.inverse().point(DPoint3(0));
+  film.flag("premultiplyalpha", true, "of pbrt-v1; pictures here always are premultiplied");
+  film.integer("writefrequency", -1, -1, std::numeric_limits<int>::max(),
+               "of pbrt-v1; without effect");
+  film.flag("display", false, "of pbrt-v2; without effect");
+  film.flag("savefp16", true, "of pbrt-v4; without effect: pictures are stored in 32 bits");
+  film.positive("diagonal", 35, "of the sensor, for cameras with a lens system", "mm");
+  if (film.text("sensor", "cie1931", "of pbrt-v4") != "cie1931")
+    film.warn("sensor", "is read as \"cie1931\"");
+  if (film.nonNegative("whitebalance", 0, "of pbrt-v4, a temperature", "K") > 0)
+    film.warn("whitebalance", "has no effect here");
+  film.text("coordinatesystem", "camera", "of pbrt-v4's gbuffer; always that of the world");
+  film.integer("nbuckets", 16, 1, 1 << 16, "of pbrt-v4's spectral film; without effect");
+  film.positive("lambdamin", 360, "of pbrt-v4's spectral film; without effect", "nm");
+  film.positive("lambdamax", 830, "of pbrt-v4's spectral film; without effect", "nm");
+  return settings;
+}
+
+void SceneBuilder::makeFilm() {
+  const Directive& statement = option(film_, DirectiveKind::Film, "image");
+  Params film("film/" + statement.words.at(0), statement.where, {&statement.params}, nullptr,
+              options_.report);
   constexpr int kMost = 1 << 16;
   Point2i resolution(
       film.integer("xresolution", defaults_.resolution.x, 1, kMost, "width in pixels"),
@@ -55,52 +116,42 @@ void SceneBuilder::makeCameraAndFilm() {
                              1, kMost)};
   const Bounds2i crop = cropBounds(film, resolution);
   scene_->outputFile_ = film.text("filename", "pbrt.exr", "where the picture goes");
-  Film::Settings settings;
-  settings.scale = film.positive("scale", 1, "factor for every pixel value");
-  settings.brightest = film.positive("maxsampleluminance", kInfinity,
-                                     "samples brighter than this are darkened to it");
-  for (const std::string& name :
-       film.choices("aov", aovNames(), "what to store beside the picture"))
-    settings.aovs |= *aovByName(name);
-  settings.aovs |= options_.aovs;
-  settings.origin = cameraFromWorld_.inverse().point(DPoint3(0));
-  film.flag("premultiplyalpha", true, "of pbrt-v1; pictures here always are premultiplied");
-  film.integer("writefrequency", -1, -1, std::numeric_limits<int>::max(),
-               "of pbrt-v1; without effect");
-  film.positive("diagonal", 35, "of the sensor, for cameras with a lens system", "mm");
-  film.refuseUnread();
+  Film::Settings settings = filmSettings(film);
+  settings.aovs |= filmAovs(statement);
+  factory_.attempt([&] { film.refuseUnread(); });
 
-  const Directive& filter = option(filter_, DirectiveKind::PixelFilter, defaults_.filter);
-  scene_->filter_ = factory_.make<Filter>(filter.words.at(0), filter.params, filter.where);
+  scene_->filter_ = makeOption<Filter>(filter_, DirectiveKind::PixelFilter, defaults_.filter);
   scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, settings);
+}
 
-  const Directive& sampler = option(sampler_, DirectiveKind::Sampler, defaults_.sampler);
-  scene_->makeSampler_ = [factory = factory_, sampler, resolution](
-                             std::uint64_t seed, std::optional<int> samplesPerPixel) mutable {
-    return factory.make<Sampler>(sampler.words.at(0), sampler.params, sampler.where,
-                                 {seed, samplesPerPixel, resolution});
+void SceneBuilder::makeSampler(Point2i resolution) {
+  scene_->seed_ = options_.seed.value_or(seed_.value_or(0));
+  const auto make = [&] {
+    const Directive& sampler = option(sampler_, DirectiveKind::Sampler, defaults_.sampler);
+    scene_->makeSampler_ = [factory = factory_, sampler, resolution](
+                               std::uint64_t seed, std::optional<int> samplesPerPixel) mutable {
+      return factory.make<Sampler>(sampler.words.at(0), sampler.params, sampler.where,
+                                   {seed, samplesPerPixel, resolution});
+    };
+    scene_->sampler_ = scene_->makeSampler_(scene_->seed_, options_.samplesPerPixel);
   };
-  scene_->sampler_ = scene_->makeSampler_(options_.seed, options_.samplesPerPixel);
+  if (!factory_.attempt(make)) {
+    sampler_.reset();
+    make();
+  }
   if (options_.quick && !options_.samplesPerPixel)
     scene_->sampler_ =
-        scene_->makeSampler(options_.seed, std::max(1, scene_->sampler_->samplesPerPixel() / 4));
+        scene_->makeSampler(scene_->seed_, std::max(1, scene_->sampler_->samplesPerPixel() / 4));
+}
 
-  const Directive& camera = option(camera_, DirectiveKind::Camera, defaults_.camera);
+void SceneBuilder::makeCamera(Point2i resolution) {
   const Transform renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
-  scene_->ownCamera_ = factory_.make<Camera>(camera.words.at(0), camera.params, camera.where,
-                                             {renderFromCamera, resolution});
+  scene_->ownCamera_ = makeOption<Camera>(camera_, DirectiveKind::Camera, defaults_.camera,
+                                          {renderFromCamera, resolution});
   scene_->camera_ = scene_->ownCamera_.get();
   scene_->attributes_["worldToCamera"] = cameraFromWorld_.matrix();
   if (const auto screen = scene_->camera_->screenFromCamera())
     scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.matrix();
-
-  if (integrator_)
-    translateParameters(factory_.dialect(), PluginKind::integrator, integrator_->words.at(0),
-                        integrator_->params);
-  const Directive& integrator =
-      option(integrator_, DirectiveKind::Integrator, defaults_.integrator);
-  scene_->integrator_ =
-      factory_.make<Integrator>(integrator.words.at(0), integrator.params, integrator.where);
 }
 
 std::unique_ptr<Scene> SceneBuilder::finish() {
@@ -113,7 +164,12 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
     note(saved.where, fmt::format("{} is never closed", directiveName(saved.begin)));
   if (!camera_) note({}, "the scene has no Camera: it is seen from 0 0 0 along +z");
 
-  makeCameraAndFilm();
+  makeFilm();
+  const Point2i resolution = scene_->film_->resolution();
+  makeSampler(resolution);
+  makeCamera(resolution);
+  scene_->integrator_ =
+      makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
 
   Scene& scene = *scene_;
   for (const Instance& instance : scene.instances_)

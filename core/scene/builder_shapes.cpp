@@ -7,29 +7,25 @@
 namespace pbrt {
 
 void SceneBuilder::addLight(const Directive& d) {
-  auto light =
-      factory_.make<Light>(d.words.at(0), d.params, d.where, {transforms_.current(), nullptr});
-  scene_->ownLights_.push_back(std::move(light));
+  const std::string& name = d.words.at(0);
+  scene_->ownLights_.push_back(
+      factory_.make<Light>(name, d.params, d.where, {transforms_.current(), nullptr}, nullptr,
+                           defaultsFor(AttributeTarget::light, name).get()));
 }
 
 void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
                             const Transform& toGroup, Group& group) {
+  if (attributes.material->isInterface() && !attributes.areaLight) return;
   auto g = std::make_unique<Geometry>();
 
-  const PluginInfo& plugin = factory_.open(PluginKind::shape, d.words.at(0), d.where);
-  Params params = factory_.params(plugin, d.where, {&d.params});
+  const std::string& name = d.words.at(0);
+  const PluginInfo& plugin = factory_.open(PluginKind::shape, name, d.where);
+  std::vector<const ParamList*> lists = {&d.params};
+  if (const auto& defaults = attributes.defaultsOf(AttributeTarget::shape))
+    lists.push_back(defaults.get());
+  Params params = factory_.params(plugin, name, d.where, std::move(lists));
   g->shape = create<Shape>(plugin, params, {});
-  // What the shape does not know may be meant for its material.
-  if (const auto unread = params.unread(); unread.empty()) {
-    g->material = attributes.material->shared(factory_, attributes.textures);
-  } else {
-    ParamList overrides;
-    for (const Param* param : unread) overrides.push_back(*param);
-    g->material = attributes.material->overridden(factory_, *attributes.textures, overrides);
-    std::vector<Diagnostic> errors;
-    for (const Param& param : overrides) errors.push_back(params.unknown(param));
-    if (!errors.empty()) throw Error(std::move(errors));
-  }
+  g->material = materialFor(params, attributes);
   scene_->filters_ = scene_->filters_ || g->material->filters();
 
   g->reverse = attributes.reverse;
@@ -46,7 +42,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   ++scene_->shapes_;
   if (attributes.areaLight) {
     if (&group == &scene_->root_)
-      addAreaLight(*attributes.areaLight, d, toGroup, *g);
+      addAreaLight(attributes, d, toGroup, *g);
     else
       factory_.report(Severity::warning, d.where,
                       "a shape of an object for instancing gives no light");
@@ -54,7 +50,23 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   group.geometries.push_back(std::move(g));
 }
 
-void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
+// The material of a shape. What the shape does not know may be meant for it.
+std::shared_ptr<const Material> SceneBuilder::materialFor(const Params& shape,
+                                                          const Attributes& attributes) {
+  if (attributes.material->isInterface())  // of a shape that shines
+    return factory_.make<Material>(
+        "matte", {{ParamType::rgb, "Kd", {}, {}, std::vector<float>{0, 0, 0}}}, shape.where());
+  ParamList overrides;
+  for (const Param* param : shape.unread()) overrides.push_back(*param);
+  if (overrides.empty()) return attributes.material->shared(resources_, attributes.scope);
+  auto material = attributes.material->overridden(resources_, attributes.scope, overrides);
+  std::vector<Diagnostic> errors;
+  for (const Param& param : overrides) errors.push_back(shape.unknown(param));
+  if (!errors.empty()) factory_.attempt([&] { throw Error(std::move(errors)); });
+  return material;
+}
+
+void SceneBuilder::addAreaLight(const Attributes& attributes, const Directive& shape,
                                 const Transform& toRender, Geometry& g) {
   if (g.mesh)
     g.sampler = meshSampler(*g.mesh, g.flip, g.reverse);
@@ -67,8 +79,10 @@ void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
                                 shape.words.at(0)));
     return;
   }
+  const Directive& light = *attributes.areaLight;
   g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
-                                 {toRender, g.sampler.get()});
+                                 {toRender, g.sampler.get()}, nullptr,
+                                 attributes.areaLightDefaults.get());
   if (g.light->isDelta() || g.light->isInfinite())
     throw Error(light.where, fmt::format("a \"{}\" light is not the surface of a shape: it needs "
                                          "LightSource",
@@ -85,7 +99,13 @@ void SceneBuilder::addInstance(const Directive& d) {
   if (!object.built) {
     auto group = std::make_unique<Group>(scene_->device_);
     for (const PendingShape& shape : object.shapes)
-      addShape(shape.directive, shape.attributes, shape.toGroup, *group);
+      factory_.attempt([&] {
+        try {
+          addShape(shape.directive, shape.attributes, shape.toGroup, *group);
+        } catch (const Error& error) {
+          throw error.at(shape.directive.where);
+        }
+      });
     object.shapes.clear();
     group->accel.build();
     object.built = group.get();

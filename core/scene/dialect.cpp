@@ -2,26 +2,122 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <set>
+#include <bit>
 
 namespace pbrt {
 
 namespace {
 
-constexpr std::array kAliases = {
-    Alias{PluginKind::light, "area", "diffuse", true},
-    Alias{PluginKind::sampler, "02sequence", "lowdiscrepancy", true},
-    Alias{PluginKind::sampler, "sobol", "halton", false},
-    Alias{PluginKind::sampler, "maxmindist", "lowdiscrepancy", false},
-    Alias{PluginKind::sampler, "adaptive", "lowdiscrepancy", false},
+// Sets of generations.
+constexpr std::uint8_t kV1 = 1, kV2 = 2, kV3 = 4, kV4 = 8;
+constexpr std::uint8_t kAll = kV1 | kV2 | kV3 | kV4;
+
+struct TellTale {
+  std::uint8_t generations;
+  std::string_view names;  // separated by blanks
 };
+
+constexpr std::array kMaterials = {
+    TellTale{kV1, "shinymetal bluepaint clay felt primer skin brushedmetal"},
+    TellTale{kV3, "disney fourier"},
+    TellTale{kV4, "diffuse dielectric conductor thindielectric coateddiffuse coatedconductor "
+                  "diffusetransmission interface measured"},
+    TellTale{kV2 | kV3, "metal kdsubsurface"},
+    TellTale{kV1 | kV2 | kV3, "matte plastic glass mirror substrate translucent uber"},
+};
+constexpr std::array kFilms = {TellTale{kV1 | kV2 | kV3, "image"},
+                               TellTale{kV4, "rgb gbuffer spectral"}};
+constexpr std::array kSamplers = {TellTale{kV4, "zsobol paddedsobol pmj02bn independent"},
+                                  TellTale{kV3, "02sequence maxmindist"},
+                                  TellTale{kV3 | kV4, "sobol"}, TellTale{kV2, "adaptive"},
+                                  TellTale{kV1 | kV2, "bestcandidate"}};
+constexpr std::array kCameras = {TellTale{kV1 | kV2 | kV3, "environment"},
+                                 TellTale{kV4, "spherical"}};
+constexpr std::array kAreaLights = {TellTale{kV1 | kV2 | kV3, "area"}};
+
+template <std::size_t N>
+std::uint8_t generationsOf(const std::array<TellTale, N>& table, const std::string& name) {
+  for (const TellTale& row : table)
+    if (!name.empty() && fmt::format(" {} ", row.names).find(' ' + name + ' ') != std::string::npos)
+      return row.generations;
+  return kAll;
+}
+
+std::string_view declaredType(const Param& p) {
+  if (!p.where.source) return "";
+  std::string_view text = p.where.source->text;
+  text = text.substr(std::min(p.where.begin + 1, text.size()), p.where.length);
+  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
+  return text.substr(0, text.find_first_of(" \t\""));
+}
+
+bool unquotedBool(const Param& p) {
+  if (p.type != ParamType::boolean || !p.valueWhere.source) return false;
+  const std::string_view text = p.valueWhere.source->text;
+  return text.substr(p.valueWhere.begin, p.valueWhere.length).find('"') == std::string_view::npos;
+}
+
+// By the spelling of its type; names that two generations share tell nothing.
+std::uint8_t generationsOf(const Param& p) {
+  const std::string_view type = declaredType(p);
+  if (type == "color") return kV1 | kV2 | kV3;
+  if (type == "rgb") return kV2 | kV3 | kV4;
+  if (type == "point2" || type == "vector2" || type == "point3" || type == "vector3")
+    return kV3 | kV4;
+  return unquotedBool(p) ? kV4 : kAll;
+}
+
+std::uint8_t generationsOf(const Directive& d) {
+  using enum DirectiveKind;
+  const auto word = [&] { return d.words.empty() ? std::string() : d.words[0]; };
+  switch (d.kind) {
+    case SearchPath:
+      return kV1;
+    case Renderer:
+      return kV2;
+    case SurfaceIntegrator:
+    case VolumeIntegrator:
+    case Volume:
+      return kV1 | kV2;
+    case NamedMaterial:
+    case ActiveTransform:
+      return kV2 | kV3 | kV4;
+    case MakeNamedMaterial:
+      for (const Param& p : d.params)
+        if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
+            type && p.name == "type" && !type->empty())
+          return generationsOf(kMaterials, type->front()) & (kV2 | kV3 | kV4);
+      return kV2 | kV3 | kV4;
+    case Integrator:
+    case MediumInterface:
+    case MakeNamedMedium:
+    case TransformTimes:
+      return kV3 | kV4;
+    case Material:
+      return generationsOf(kMaterials, word());
+    case Film:
+      return generationsOf(kFilms, word());
+    case Sampler:
+      return generationsOf(kSamplers, word());
+    case Camera:
+      return generationsOf(kCameras, word());
+    case AreaLightSource:
+      return generationsOf(kAreaLights, word());
+    default:
+      return kAll;
+  }
+}
 
 Param number(std::string name, float value) {
   return {ParamType::number, std::move(name), {}, {}, std::vector<float>{value}};
 }
+Param rgb(std::string name, std::vector<float> value) {
+  return {ParamType::rgb, std::move(name), {}, {}, std::move(value)};
+}
 Param grey(std::string name, float value) {
-  return {ParamType::rgb, std::move(name), {}, {}, std::vector<float>{value, value, value}};
+  return rgb(std::move(name), {value, value, value});
 }
 Param count(std::string name, int value) {
   return {ParamType::integer, std::move(name), {}, {}, std::vector<int>{value}};
@@ -31,111 +127,105 @@ Param text(std::string name, std::string value) {
 }
 
 struct DefaultsRow {
-  std::set<Dialect> dialects;
+  std::uint8_t generations;
   PluginKind kind;
   std::string name;
   ParamList defaults;
 };
 
 const std::vector<DefaultsRow>& defaultsTable() {
-  constexpr auto v1 = Dialect::v1, v2 = Dialect::v2;
+  using enum PluginKind;
   static const std::vector<DefaultsRow> table = {
-      {{v1}, PluginKind::material, "matte", {grey("Kd", 1)}},
-      {{v1}, PluginKind::material, "mirror", {grey("Kr", 1)}},
-      {{v1},
-       PluginKind::material,
-       "plastic",
-       {grey("Kd", 1), grey("Ks", 1), text("distribution", "blinn")}},
-      {{v2}, PluginKind::material, "plastic", {text("distribution", "blinn")}},
-      {{v1}, PluginKind::camera, "perspective", {number("hither", 1e-3F)}},
-      {{v1}, PluginKind::camera, "orthographic", {number("hither", 1e-3F)}},
-      {{v1}, PluginKind::integrator, "whitted", {count("maxdepth", 6)}},
-      {{v1}, PluginKind::integrator, "directlighting", {count("maxdepth", 6)}},
-      {{v1, v2}, PluginKind::sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
-      {{v1, v2}, PluginKind::integrator, "path", {count("maxdepth", 6)}},
-      {{v1}, PluginKind::sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
+      {kV1, material, "matte", {grey("Kd", 1)}},
+      {kV1, material, "mirror", {grey("Kr", 1)}},
+      {kV1, material, "plastic", {grey("Kd", 1), grey("Ks", 1), text("distribution", "blinn")}},
+      {kV2, material, "plastic", {text("distribution", "blinn")}},
+      {kV1, camera, "perspective", {number("hither", 1e-3F)}},
+      {kV1, camera, "orthographic", {number("hither", 1e-3F)}},
+      {kV1, integrator, "whitted", {count("maxdepth", 6)}},
+      {kV1, integrator, "directlighting", {count("maxdepth", 6)}},
+      {kV1 | kV2, sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
+      {kV1 | kV2, integrator, "path", {count("maxdepth", 6)}},
+      {kV1, sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
+      {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;
-}
-
-bool onlyInV1(const std::string& material) {
-  static const std::set<std::string> names = {"shinymetal", "bluepaint", "clay",        "felt",
-                                              "primer",     "skin",      "brushedmetal"};
-  return names.contains(material);
 }
 
 }  // namespace
 
 std::optional<Dialect> dialectByName(std::string_view name) {
-  for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3})
+  for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3, Dialect::v4})
     if (name == dialectName(d)) return d;
   return {};
 }
 
 std::string_view dialectName(Dialect dialect) {
-  constexpr std::array<std::string_view, 3> names = {"v1", "v2", "v3"};
+  constexpr std::array<std::string_view, 4> names = {"v1", "v2", "v3", "v4"};
   return names.at(static_cast<std::size_t>(dialect) - 1);
 }
 
-DetectedDialect detectDialect(const std::vector<Directive>& scene) {
+void DialectDetector::look(const Directive& d) {
+  world_ = world_ || d.kind == DirectiveKind::WorldBegin;
+  worldEnd_ = worldEnd_ || d.kind == DirectiveKind::WorldEnd;
+  const auto narrow = [&](std::uint8_t to, const Location& where, const std::string& what) {
+    if (std::popcount(static_cast<unsigned>(left_ & to)) == std::popcount(left_)) return;
+    if ((left_ & to) == 0) return;
+    left_ &= to;
+    where_ = where;
+    told_ = what;
+  };
+  const std::string word = d.words.empty() ? "" : fmt::format(" \"{}\"", d.words[0]);
   using enum DirectiveKind;
-  for (const Directive& d : scene) {
-    const auto found = [&](Dialect dialect) {
-      const std::string word = d.words.empty() ? "" : fmt::format(" \"{}\"", d.words[0]);
-      return DetectedDialect{
-          dialect, d.where,
-          fmt::format("only pbrt-{} has {}{}", dialectName(dialect), directiveName(d.kind), word)};
-    };
-    switch (d.kind) {
-      case SearchPath:
-        return found(Dialect::v1);
-      case Material:
-        if (onlyInV1(d.words.at(0))) return found(Dialect::v1);
-        break;
-      case Renderer:
-      case ActiveTransform:
-        return found(Dialect::v2);
-      case Integrator:
-      case MediumInterface:
-      case MakeNamedMedium:
-        return found(Dialect::v3);
-      default:
-        break;
-    }
+  if (d.kind == Attribute || d.kind == ColorSpace || d.kind == Option)
+    narrow(kV4, d.where, std::string(directiveName(d.kind)));
+  narrow(generationsOf(d), d.where, fmt::format("{}{}", directiveName(d.kind), word));
+  for (const Param& p : d.params) {
+    if (decided()) return;
+    const bool plain = unquotedBool(p);
+    narrow(generationsOf(p), p.where,
+           plain ? "true and false without quotes" : fmt::format("\"{}\"", declaredType(p)));
   }
-  return {Dialect::v2, {}, "nothing in it tells which pbrt it is for"};
+}
+
+DetectedDialect DialectDetector::result() const {
+  std::uint8_t left = left_;
+  std::string reason;
+  if (where_.source) reason = fmt::format("{} tells", told_);
+  if (!decided() && world_ && !worldEnd_ && (left & kV4)) {
+    left = kV4;
+    reason = "it has no WorldEnd";
+  } else if (!decided()) {
+    left &= (left & kV2) != 0 ? kV2 : kV1 | kV3;
+    reason = where_.source ? fmt::format("{} leaves it open", told_)
+                           : "nothing in it tells which pbrt it is for";
+  }
+  return {static_cast<Dialect>(std::countr_zero(left) + 1), where_, reason};
+}
+
+DetectedDialect detectDialect(const std::vector<Directive>& scene) {
+  DialectDetector detector;
+  for (const Directive& d : scene) detector.look(d);
+  return detector.result();
 }
 
 const DialectDefaults& dialectDefaults(Dialect dialect) {
-  static const std::array<DialectDefaults, 3> table = {{
+  static const std::array<DialectDefaults, 4> table = {{
       {"mitchell", "bestcandidate", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "lowdiscrepancy", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "halton", "path", "perspective", "matte", {1280, 720}},
+      // Its own are zsobol and volpath, which are called otherwise here; see translation.cpp.
+      {"gaussian", "lowdiscrepancy", "path", "perspective", "matte", {1280, 720}},
   }};
   return table.at(static_cast<std::size_t>(dialect) - 1);
 }
 
 const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::string& name) {
   static const ParamList none;
+  const unsigned bit = 1U << (static_cast<unsigned>(dialect) - 1);
   for (const DefaultsRow& row : defaultsTable())
-    if (row.kind == kind && row.name == name && row.dialects.contains(dialect)) return row.defaults;
+    if (row.kind == kind && row.name == name && (row.generations & bit)) return row.defaults;
   return none;
-}
-
-void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
-                         ParamList& params) {
-  if (kind != PluginKind::integrator) return;
-  if (!(dialect == Dialect::v1 || (dialect == Dialect::v2 && name == "path"))) return;
-  for (Param& param : params)
-    if (auto* values = std::get_if<std::vector<int>>(&param.values);
-        values && param.name == "maxdepth")
-      for (int& depth : *values) depth += depth < std::numeric_limits<int>::max() ? 1 : 0;
-}
-
-const Alias* findAlias(PluginKind kind, std::string_view name) {
-  for (const Alias& alias : kAliases)
-    if (alias.kind == kind && alias.name == name) return &alias;
-  return nullptr;
 }
 
 }  // namespace pbrt

@@ -1,6 +1,6 @@
 #pragma once
-// The generations of the scene format, and what differs between them: one table for each
-// difference.
+// The generations of the scene format: which of them a scene is written for, and what each uses
+// where the scene says nothing. Names that differ are in translation.h.
 
 #include <optional>
 #include <string>
@@ -11,17 +11,36 @@
 
 namespace pbrt {
 
-enum class Dialect : std::uint8_t { v1 = 1, v2 = 2, v3 = 3 };
+enum class Dialect : std::uint8_t { v1 = 1, v2 = 2, v3 = 3, v4 = 4 };
 
-std::optional<Dialect> dialectByName(std::string_view name);  // "v1", "v2", "v3"
+std::optional<Dialect> dialectByName(std::string_view name);  // "v1" ... "v4"
 std::string_view dialectName(Dialect dialect);
 
 struct DetectedDialect {
   Dialect dialect = Dialect::v2;
-  Location where;      // the tell-tale; nowhere if there was none
+  Location where;      // the statement that told; nowhere if there was none
   std::string reason;  // in words
 };
-// The first statement that only one generation has decides; without one it is v2.
+
+// Finds out which generation a scene is written for. Each statement leaves those that could have
+// it; one that none of those left could have tells nothing, as real files mix.
+class DialectDetector {
+ public:
+  void look(const Directive& d);
+  // Whether only one is left: no further statement changes that.
+  bool decided() const { return (left_ & (left_ - 1)) == 0; }
+  // Of a scene that is complete. Without WorldEnd it is v4 if it can be; what is left open is v2
+  // before v3.
+  DetectedDialect result() const;
+
+ private:
+  std::uint8_t left_ = 0b1111;  // bit i: v(i + 1)
+  bool world_ = false, worldEnd_ = false;
+  Location where_;
+  std::string told_;  // the statement that left the fewest
+};
+
+// Of a whole scene.
 DetectedDialect detectDialect(const std::vector<Directive>& scene);
 
 // What a generation uses where the scene file says nothing.
@@ -31,21 +50,8 @@ struct DialectDefaults {
 };
 const DialectDefaults& dialectDefaults(Dialect dialect);
 
-// The default parameters of a plug-in where they differ from the plug-in's own, which are v3's.
+// The default parameters of a plug-in, by the name that the scene file uses, where they differ from
+// the plug-in's own, which are v3's.
 const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::string& name);
-
-// Changes parameters of a plug-in that mean something else in a generation to what they mean here:
-// the maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path
-// in v1 and v2 leaves out the first scattering.
-void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
-                         ParamList& params);
-
-// A name under which a plug-in is known to scene files, and the one that it has here.
-struct Alias {
-  PluginKind kind;
-  std::string_view name, target;
-  bool exact;  // false: a stand-in that gives a similar picture; worth a warning
-};
-const Alias* findAlias(PluginKind kind, std::string_view name);
 
 }  // namespace pbrt

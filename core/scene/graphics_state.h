@@ -1,26 +1,13 @@
 #pragma once
-// What the statements of a scene act on: the current transform and the current attributes.
+// The transforms that the statements of a scene act on.
 
 #include <map>
-#include <memory>
-#include <optional>
 #include <string>
 
 #include "core/parse/directive.h"
-#include "core/scene/resources.h"
+#include "core/scene/factory.h"
 
 namespace pbrt {
-
-using NamedMaterials = std::map<std::string, std::shared_ptr<MaterialDefinition>>;
-
-// Saved by AttributeBegin, restored by AttributeEnd; cheap to copy.
-struct Attributes {
-  bool reverse = false;
-  std::shared_ptr<MaterialDefinition> material;
-  std::shared_ptr<const Directive> areaLight;
-  std::shared_ptr<TextureScope> textures;
-  std::shared_ptr<const NamedMaterials> namedMaterials;  // never changed, only replaced
-};
 
 // The current transformation matrix and those that have names.
 class TransformState {

@@ -2,97 +2,153 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+
 namespace pbrt {
 
 namespace {
 
-std::string shown(std::string_view name) {
-  return name.size() > 60 ? fmt::format("{}...", name.substr(0, 60)) : std::string(name);
+template <class T>
+Named<T>* find(Named<T>* last, std::string_view name) {
+  while (last && last->name != name) last = last->before;
+  return last;
+}
+
+template <class T>
+std::vector<std::string> namesOf(const Named<T>* last) {
+  std::vector<std::string> names;
+  for (; last; last = last->before) names.push_back(last->name);
+  return names;
+}
+
+template <class T>
+void add(std::deque<Named<T>>& all, Named<T>*& last, const std::string& name, T value) {
+  all.push_back({name, std::move(value), last});
+  last = &all.back();
+}
+
+// The textures of a scope, for parameters that name some.
+class Library final : public TextureLibrary {
+ public:
+  Library(Resources& resources, const Scope& scope) : resources_(resources), scope_(scope) {}
+  std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) override {
+    return resources_.floatTexture(scope_, name);
+  }
+  std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) override {
+    return resources_.spectrumTexture(scope_, name);
+  }
+
+ private:
+  Resources& resources_;
+  const Scope& scope_;
+};
+
+// What is seen where something could not be had.
+ParamList magenta(const std::string& name) {
+  return {{ParamType::rgb, name, {}, {}, std::vector<float>{1, 0, 1}}};
+}
+
+Error noTexture(std::string_view name, bool isFloat, bool otherKind,
+                const std::vector<std::string>& names) {
+  constexpr std::array kKinds = {"color", "float"};
+  if (otherKind)
+    return Error(fmt::format("texture \"{}\" is a {} texture, but a {} texture is needed",
+                             shown(name), kKinds[isFloat ? 0 : 1], kKinds[isFloat ? 1 : 0]));
+  return Error(fmt::format("there is no {} texture \"{}\"{}", kKinds[isFloat ? 1 : 0], shown(name),
+                           didYouMean(name, names)));
 }
 
 }  // namespace
 
-const PluginInfo& Factory::open(PluginKind kind, const std::string& name, const Location& where) {
-  try {
-    const Alias* alias = findAlias(kind, name);
-    const bool own = !alias || [&] {  // a plug-in of that very name goes before its stand-in
-      if (alias->exact) return false;
-      const auto names = loader_.available(kind);
-      return std::find(names.begin(), names.end(), name) != names.end();
-    }();
-    if (own) return loader_.open(kind, name);
-    if (!alias->exact && !substituted_[{kind, name}]) {
-      substituted_[{kind, name}] = true;
-      report(Severity::warning, where,
-             fmt::format("there is no {} \"{}\" yet; \"{}\" takes its place", kindName(kind), name,
-                         alias->target));
-    }
-    return loader_.open(kind, std::string(alias->target));
-  } catch (const Error& error) {
-    throw error.at(where);
-  }
+void Resources::define(Scope& scope, const std::string& name, TextureDefinition<float> d) {
+  add(floats_, scope.floats, name, std::move(d));
+}
+void Resources::define(Scope& scope, const std::string& name, TextureDefinition<Spectrum> d) {
+  add(spectra_, scope.spectra, name, std::move(d));
+}
+void Resources::define(Scope& scope, const std::string& name,
+                       std::shared_ptr<MaterialDefinition> material) {
+  add(materials_, scope.materials, name, std::move(material));
 }
 
-Params Factory::params(const PluginInfo& plugin, const Location& where,
-                       std::vector<const ParamList*> lists, TextureLibrary* textures) const {
-  return {fmt::format("{}/{}", kindFolder(plugin.kind), plugin.name),
-          where,
-          std::move(lists),
-          textures,
-          report_,
-          &parameterDefaults(dialect_, plugin.kind, plugin.name)};
+std::shared_ptr<const Texture<float>> Resources::floatTexture(const Scope& scope,
+                                                              const std::string& name) {
+  auto* found = find(scope.floats, name);
+  if (!found) throw noTexture(name, true, find(scope.spectra, name), namesOf(scope.floats));
+  return build(found->value);
 }
 
-TextureScope::TextureScope(const std::shared_ptr<TextureScope>& outer, const std::string& name,
-                           bool isSpectrum, Definition definition)
-    : factory_(outer->factory_), floats_(outer->floats_), spectra_(outer->spectra_) {
-  if (isSpectrum)
-    spectra_[name] = std::make_shared<Entry<Spectrum>>(Entry<Spectrum>{std::move(definition), {}});
-  else
-    floats_[name] = std::make_shared<Entry<float>>(Entry<float>{std::move(definition), {}});
+std::shared_ptr<const Texture<Spectrum>> Resources::spectrumTexture(const Scope& scope,
+                                                                    const std::string& name) {
+  auto* found = find(scope.spectra, name);
+  if (!found) throw noTexture(name, false, find(scope.floats, name), namesOf(scope.spectra));
+  return build(found->value);
 }
 
 template <class T>
-std::shared_ptr<const Texture<T>> TextureScope::find(const std::string& name, Entries<T>& entries) {
-  const auto found = entries.find(name);
-  if (found == entries.end()) {
-    constexpr bool isFloat = std::is_same_v<T, float>;
-    const bool otherKind = isFloat ? spectra_.contains(name) : floats_.contains(name);
-    if (otherKind)
-      throw Error(fmt::format("texture \"{}\" is a {} texture, but a {} texture is needed",
-                              shown(name), isFloat ? "color" : "float",
-                              isFloat ? "float" : "color"));
-    throw Error(fmt::format("there is no {} texture \"{}\"{}", isFloat ? "float" : "color",
-                            shown(name), didYouMeanKey(name, entries)));
+std::shared_ptr<const Texture<T>> Resources::build(TextureDefinition<T>& d) {
+  if (d.built) return d.built;
+  if (depth_ >= kDeepest)
+    throw Error(d.where, fmt::format("textures name one another more than {} deep", kDeepest));
+  ++depth_;
+  const std::shared_ptr<void> leave(nullptr, [this](void*) { --depth_; });
+  Library library(*this, d.scope);
+  const bool made = factory_.attempt([&] {
+    d.built = factory_.make<Texture<T>>(d.plugin, d.params, d.where, d.place, &library,
+                                        d.attributes.get());
+  });
+  if (!made) {
+    ParamList value = magenta("value");
+    if constexpr (std::is_same_v<T, float>)
+      value = {{ParamType::number, "value", {}, {}, std::vector<float>{1}}};
+    d.built = factory_.make<Texture<T>>("constant", value, d.where);
   }
-  Entry<T>& entry = *found->second;
-  if (!entry.built) {
-    const Definition& d = entry.definition;
-    entry.built = factory_.make<Texture<T>>(d.plugin, d.params, d.where,
-                                            {d.place.placement, d.place.world}, d.scope.get());
-  }
-  return entry.built;
+  return d.built;
 }
 
-std::shared_ptr<const Material> MaterialDefinition::shared(
-    Factory& factory, const std::shared_ptr<TextureScope>& shapeScope) {
-  const std::shared_ptr<TextureScope>& scope = scope_ ? scope_ : shapeScope;
-  const bool usesTextures = std::any_of(
-      params_.begin(), params_.end(), [](const Param& p) { return p.type == ParamType::texture; });
-  if (!built_ || (usesTextures && builtIn_ != scope)) {
-    built_ = factory.make<Material>(plugin_, params_, where_, {}, scope.get());
-    builtIn_ = scope;
-  }
+std::shared_ptr<MaterialDefinition> Resources::material(const Scope& scope,
+                                                        const std::string& name) const {
+  const auto* found = find(scope.materials, name);
+  if (!found)
+    throw Error(fmt::format("there is no named material \"{}\"{}", shown(name),
+                            didYouMean(name, namesOf(scope.materials))));
+  return found->value;
+}
+
+bool MaterialDefinition::isInterface() const {
+  return plugin_.empty() || plugin_ == "none" || plugin_ == "interface";
+}
+
+std::shared_ptr<const Material> MaterialDefinition::shared(Resources& resources,
+                                                           const Scope& shapeScope) {
+  const Scope& scope = scope_ ? *scope_ : shapeScope;
+  const auto isTexture = [](const Param& p) { return p.type == ParamType::texture; };
+  const bool usesTextures = std::any_of(params_.begin(), params_.end(), isTexture) ||
+                            (attributes_ && std::any_of(attributes_->begin(), attributes_->end(),
+                                                        isTexture));
+  if (built_ && (!usesTextures || builtIn_.sameTextures(scope))) return built_;
+  Library library(resources, scope);
+  Factory& factory = resources.factory();
+  const bool made = factory.attempt([&] {
+    built_ = factory.make<Material>(plugin_, params_, where_, {}, &library, attributes_.get());
+  });
+  if (!made) built_ = factory.make<Material>("matte", magenta("Kd"), where_);
+  builtIn_ = scope;
   return built_;
 }
 
-std::shared_ptr<const Material> MaterialDefinition::overridden(Factory& factory,
-                                                               TextureScope& scope,
+std::shared_ptr<const Material> MaterialDefinition::overridden(Resources& resources,
+                                                               const Scope& shapeScope,
                                                                ParamList& overrides) {
+  Factory& factory = resources.factory();
   const PluginInfo& plugin = factory.open(PluginKind::material, plugin_, where_);
-  Params params = factory.params(plugin, where_, {&overrides, &params_}, &scope);
+  std::vector<const ParamList*> lists = {&overrides, &params_};
+  if (attributes_) lists.push_back(attributes_.get());
+  Library library(resources, shapeScope);
+  Params params = factory.params(plugin, plugin_, where_, std::move(lists), &library);
   std::shared_ptr<const Material> material = create<Material>(plugin, params, {});
-  params.refuseUnread(1);
+  factory.attempt([&] { params.refuseUnread(1); });
   ParamList left;
   for (const Param* unread : params.unread(0)) left.push_back(*unread);
   overrides = std::move(left);

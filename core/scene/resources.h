@@ -1,128 +1,118 @@
 #pragma once
 // What a scene defines by name and builds only when something uses it: textures and materials.
 
-#include <map>
+#include <deque>
 #include <memory>
+#include <optional>
 
 #include "core/api/material.h"
-#include "core/plugin/loader.h"
-#include "core/scene/dialect.h"
+#include "core/scene/factory.h"
 
 namespace pbrt {
 
-// `; did you mean "..."?` over the keys of a map, or nothing.
-template <class Map>
-std::string didYouMeanKey(std::string_view name, const Map& map) {
-  std::vector<std::string> names;
-  for (const auto& entry : map) names.push_back(entry.first);
-  return didYouMean(name, names);
-}
+class MaterialDefinition;
 
-// Makes objects of plug-ins for a scene: finds them by the names its dialect knows, gives them its
-// defaults, and refuses parameters that they do not read.
-class Factory {
- public:
-  Factory(PluginLoader& loader, Dialect dialect, Reporter report)
-      : loader_(loader), dialect_(dialect), report_(std::move(report)) {}
-
-  template <class Interface>
-  std::unique_ptr<Interface> make(const std::string& name, const ParamList& params,
-                                  const Location& where,
-                                  const typename Interface::Setup& setup = {},
-                                  TextureLibrary* textures = nullptr) {
-    const PluginInfo& plugin = open(kindOf<Interface>, name, where);
-    Params reader = this->params(plugin, where, {&params}, textures);
-    auto object = create<Interface>(plugin, reader, setup);
-    reader.refuseUnread();
-    return object;
-  }
-
-  const PluginInfo& open(PluginKind kind, const std::string& name, const Location& where);
-  Params params(const PluginInfo& plugin, const Location& where,
-                std::vector<const ParamList*> lists, TextureLibrary* textures = nullptr) const;
-
-  PluginLoader& loader() { return loader_; }
-  Dialect dialect() const { return dialect_; }
-  void report(Severity severity, const Location& where, std::string message) const {
-    if (report_) report_(diagnose(severity, where, std::move(message)));
-  }
-
- private:
-  PluginLoader& loader_;
-  Dialect dialect_;
-  Reporter report_;
-  std::map<std::pair<PluginKind, std::string>, bool> substituted_;  // warned about already
+// A definition with a name, and the one before it in the same block or in those around it.
+template <class T>
+struct Named {
+  std::string name;
+  T value;
+  Named* before = nullptr;
 };
 
-// The textures that can be named at some place of a scene. A scope never changes once it is made:
-// a Texture statement makes a new one on top of the old.
-class TextureScope final : public TextureLibrary {
+// A Texture statement.
+template <class T>
+struct TextureDefinition;
+
+// What can be named at some place of a scene. Copied freely: definitions never change what others
+// see, they only come before it.
+struct Scope {
+  Named<TextureDefinition<float>>* floats = nullptr;
+  Named<TextureDefinition<Spectrum>>* spectra = nullptr;
+  Named<std::shared_ptr<MaterialDefinition>>* materials = nullptr;
+
+  bool sameTextures(const Scope& other) const {
+    return floats == other.floats && spectra == other.spectra;
+  }
+};
+
+template <class T>
+struct TextureDefinition {
+  std::string plugin;
+  ParamList params;
+  std::shared_ptr<const ParamList> attributes;  // of lower rank, by Attribute "texture"
+  Location where;
+  typename Texture<T>::Setup place;
+  Scope scope;  // of the textures that it may name itself
+  std::shared_ptr<const Texture<T>> built;
+};
+
+// Keeps all definitions of a scene, and builds those that are used.
+class Resources {
  public:
-  struct Definition {
-    std::string plugin;
-    ParamList params;
-    Location where;
-    Texture<float>::Setup place;
-    std::shared_ptr<TextureScope> scope;  // of the textures that it may name itself
-  };
+  // Textures that name one another may be nested this deep.
+  static constexpr int kDeepest = 100;
 
-  explicit TextureScope(Factory& factory) : factory_(factory) {}
-  // `outer` with one texture more.
-  TextureScope(const std::shared_ptr<TextureScope>& outer, const std::string& name, bool isSpectrum,
-               Definition definition);
+  explicit Resources(Factory& factory) : factory_(factory) {}
+  Resources(const Resources&) = delete;
+  Resources& operator=(const Resources&) = delete;
 
-  std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) override {
-    return find<float>(name, floats_);
-  }
-  std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) override {
-    return find<Spectrum>(name, spectra_);
-  }
+  void define(Scope& scope, const std::string& name, TextureDefinition<float> definition);
+  void define(Scope& scope, const std::string& name, TextureDefinition<Spectrum> definition);
+  void define(Scope& scope, const std::string& name, std::shared_ptr<MaterialDefinition> material);
+
+  // Never null; they throw Error (with "did you mean") if the scope has none of this name. In a
+  // permissive scene a magenta texture stands for one that cannot be had.
+  std::shared_ptr<const Texture<float>> floatTexture(const Scope& scope, const std::string& name);
+  std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const Scope& scope,
+                                                           const std::string& name);
+  std::shared_ptr<MaterialDefinition> material(const Scope& scope, const std::string& name) const;
+
+  Factory& factory() { return factory_; }
 
  private:
   template <class T>
-  struct Entry {
-    Definition definition;
-    std::shared_ptr<const Texture<T>> built;
-  };
-  template <class T>
-  using Entries = std::map<std::string, std::shared_ptr<Entry<T>>>;
-
-  template <class T>
-  std::shared_ptr<const Texture<T>> find(const std::string& name, Entries<T>& entries);
+  std::shared_ptr<const Texture<T>> build(TextureDefinition<T>& definition);
 
   Factory& factory_;
-  Entries<float> floats_;
-  Entries<Spectrum> spectra_;
+  int depth_ = 0;  // of the texture being built
+  std::deque<Named<TextureDefinition<float>>> floats_;
+  std::deque<Named<TextureDefinition<Spectrum>>> spectra_;
+  std::deque<Named<std::shared_ptr<MaterialDefinition>>> materials_;
 };
 
 // A Material or MakeNamedMaterial statement.
 class MaterialDefinition {
  public:
-  // `scope`: where a named material finds its textures, that of its statement. Null for an unnamed
+  // `scope`: where a named material finds its textures, that of its statement. None for an unnamed
   // one: as in pbrt, it finds them where the shape is.
-  MaterialDefinition(std::string plugin, ParamList params, Location where,
-                     std::shared_ptr<TextureScope> scope = nullptr)
+  MaterialDefinition(std::string plugin, ParamList params,
+                     std::shared_ptr<const ParamList> attributes, Location where,
+                     std::optional<Scope> scope = {})
       : plugin_(std::move(plugin)),
         params_(std::move(params)),
+        attributes_(std::move(attributes)),
         where_(where),
-        scope_(std::move(scope)) {}
+        scope_(scope) {}
 
+  // Whether it is no material, but the border between media: nothing to be seen.
+  bool isInterface() const;
   // The material for shapes in `shapeScope` that add nothing to it; built once for each scope that
   // matters.
-  std::shared_ptr<const Material> shared(Factory& factory,
-                                         const std::shared_ptr<TextureScope>& shapeScope);
+  std::shared_ptr<const Material> shared(Resources& resources, const Scope& shapeScope);
   // The material with some parameters of a shape before its own, all textures from the scope of the
   // shape. Those that it does not know either are left in `overrides`.
-  std::shared_ptr<const Material> overridden(Factory& factory, TextureScope& scope,
+  std::shared_ptr<const Material> overridden(Resources& resources, const Scope& shapeScope,
                                              ParamList& overrides);
 
  private:
   std::string plugin_;
   ParamList params_;
+  std::shared_ptr<const ParamList> attributes_;  // of lower rank, by Attribute "material"
   Location where_;
-  std::shared_ptr<TextureScope> scope_;
+  std::optional<Scope> scope_;
   std::shared_ptr<const Material> built_;
-  std::shared_ptr<TextureScope> builtIn_;
+  Scope builtIn_;
 };
 
 }  // namespace pbrt

@@ -59,6 +59,7 @@ class Scene final : public World {
   std::unique_ptr<Sampler> makeSampler(std::uint64_t seed, int samplesPerPixel) const {
     return makeSampler_(seed, samplesPerPixel);
   }
+  std::uint64_t seed() const { return seed_; }
   Film& film() { return *film_; }
   const std::string& outputFile() const { return outputFile_; }
   // What the picture should say about itself: worldToCamera, worldToNDC.
@@ -77,6 +78,7 @@ class Scene final : public World {
   std::unique_ptr<Filter> filter_;
   std::unique_ptr<Sampler> sampler_;
   std::function<std::unique_ptr<Sampler>(std::uint64_t, std::optional<int>)> makeSampler_;
+  std::uint64_t seed_ = 0;
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Film> film_;
   std::string outputFile_;

@@ -1,7 +1,11 @@
 #pragma once
-// The builder behind buildScene(), in three parts: statements (builder.cpp), shapes and lights
-// (builder_shapes.cpp), and what waits until the end (builder_finish.cpp).
+// The builder behind SceneReader, in parts: statements (builder.cpp), what shapes are made of
+// (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what waits until the end
+// (builder_finish.cpp).
 
+#include "core/base/colorspace.h"
+#include "core/base/parallel.h"
+#include "core/scene/attributes.h"
 #include "core/scene/builder.h"
 #include "core/scene/graphics_state.h"
 
@@ -14,13 +18,13 @@ class SceneBuilder {
  public:
   SceneBuilder(PluginLoader& loader, const BuildOptions& options, const DetectedDialect& dialect)
       : options_(options),
-        factory_(loader, dialect.dialect, options.report),
+        limit_(options.threads),
+        factory_(loader, dialect.dialect, options.report, options.permissive),
+        resources_(factory_),
         defaults_(dialectDefaults(dialect.dialect)),
         scene_(std::make_unique<Scene>(options.threads)) {
-    attributes_.textures = std::make_shared<TextureScope>(factory_);
-    attributes_.namedMaterials = std::make_shared<NamedMaterials>();
     attributes_.material =
-        std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, Location{});
+        std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, nullptr, Location{});
   }
 
   void handle(Directive&& d);
@@ -40,32 +44,67 @@ class SceneBuilder {
   struct Saved {
     Attributes attributes;
     Transform transform;
+    ColorSpace colorSpace;
     Location where;
     DirectiveKind begin;  // AttributeBegin, TransformBegin or ObjectBegin
   };
 
+  void carryOut(Directive&& d);
+  void toThisGeneration(Directive& d) const;
   bool handleOption(Directive& d);
   bool handleStack(const Directive& d);
   bool handleAttribute(Directive& d);
-  bool handleWorld(Directive& d);
+  void handleWorld(Directive& d);
   void beginWorld(const Directive& d);
   void save(const Directive& d);
   void restore(const Directive& d, DirectiveKind begin);
   void refuseUnsupported(const Directive& d) const;
+  static ColorSpace findColorSpace(const Directive& d);
+  void setDefaults(Directive& d);
+  std::shared_ptr<const ParamList> defaultsFor(AttributeTarget target,
+                                               const std::string& name) const;
+  void setOption(const Directive& d);
+  void nameMaterial(Directive& d);
+  void defineTexture(Directive& d);
 
   void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
                 Group& group);
-  void addAreaLight(const Directive& light, const Directive& shape, const Transform& toRender,
+  std::shared_ptr<const Material> materialFor(const Params& shape, const Attributes& attributes);
+  void addAreaLight(const Attributes& attributes, const Directive& shape, const Transform& toRender,
                     Geometry& g);
   void addInstance(const Directive& d);
   void addLight(const Directive& d);
-  void makeCameraAndFilm();
+  void makeFilm();
+  void makeSampler(Point2i resolution);
+  void makeCamera(Point2i resolution);
+  std::uint8_t filmAovs(const Directive& film) const;
+  float exposureTime() const;
+  Film::Settings filmSettings(Params& film) const;
   Bounds2i cropBounds(Params& film, Point2i resolution) const;
   const Directive& option(std::optional<Directive>& given, DirectiveKind kind,
                           const std::string& name) const;
+  // The object of an option statement, or what the generation uses without one; in a permissive
+  // scene also if the statement is wrong.
+  template <class Interface>
+  std::unique_ptr<Interface> makeOption(std::optional<Directive>& given, DirectiveKind kind,
+                                        const std::string& fallback,
+                                        const typename Interface::Setup& setup = {}) {
+    std::unique_ptr<Interface> object;
+    const auto make = [&] {
+      const Directive& d = option(given, kind, fallback);
+      object = factory_.make<Interface>(d.words.at(0), d.params, d.where, setup);
+    };
+    if (!factory_.attempt(make)) {
+      given.reset();
+      make();
+    }
+    return object;
+  }
 
   const BuildOptions& options_;
+  ThreadLimit limit_;
   Factory factory_;
+  Resources resources_;
   const DialectDefaults& defaults_;
   std::unique_ptr<Scene> scene_;
 
@@ -73,10 +112,13 @@ class SceneBuilder {
   Attributes attributes_;
   std::vector<Saved> stack_;
   bool inWorld_ = false, worldSeen_ = false;
+  bool ended_ = false;  // something came after WorldEnd
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
 
   std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
+  std::optional<std::uint64_t> seed_;  // of Option "integer seed"
+  ColorSpace colorSpace_ = ColorSpace::srgb;
   Transform cameraFromWorld_;  // as of the Camera statement
 };
 

@@ -94,7 +94,7 @@ Plan planOf(const Options& o) {
     for (std::int64_t n = o.minSamples; n <= o.maxSamples; n *= 2)
       plan.samples.push_back(static_cast<std::uint32_t>(n));
   plan.progressive = o.progressive || !o.times.empty();
-  plan.firstSeed = o.build.seed;
+  plan.firstSeed = *o.build.seed;
   plan.seeds = o.seeds;
   plan.threads = o.build.threads;
   return plan;

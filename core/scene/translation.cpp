@@ -1,0 +1,158 @@
+#include "core/scene/translation.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pbrt {
+
+namespace {
+
+using enum PluginKind;
+
+constexpr std::string_view kBump = "displacement bumpmap";
+constexpr std::string_view kRadii = "xradius xwidth, yradius ywidth";
+constexpr std::string_view kLights = "lightsampler lightsamplestrategy, regularize -";
+constexpr std::string_view kNoise = "the noise of the picture is not the same";
+constexpr std::string_view kPaths = "paths find the same light, at another cost";
+constexpr std::string_view kPaint = "its measured gloss is left out";
+
+constexpr std::array kTable = {
+    // name, generations, here, parameters, what differs
+    Translation{camera, "spherical", "v4", "environment", "", ""},
+    Translation{camera, "realistic", "v3 v4", "", "", ""},
+
+    Translation{filter, "box", "v4", "box", kRadii, ""},
+    Translation{filter, "gaussian", "v4", "gaussian", kRadii, ""},
+    Translation{filter, "mitchell", "v4", "mitchell", kRadii, ""},
+    Translation{filter, "sinc", "v4", "sinc", kRadii, ""},
+    Translation{filter, "triangle", "v4", "triangle", kRadii, ""},
+
+    Translation{integrator, "path", "v4", "path", kLights, ""},
+    Translation{integrator, "volpath", "v3 v4", "path", kLights, ""},
+    Translation{integrator, "simplepath", "v4", "path", "maxdepth maxdepth, * -", ""},
+    Translation{integrator, "simplevolpath", "v4", "path", "", ""},
+    Translation{integrator, "randomwalk", "v4", "path", "", ""},
+    Translation{integrator, "bdpt", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "lightpath", "v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "mlt", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "sppm", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "bidirectional", "v1", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "photonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "exphotonmap", "v1", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "irradiancecache", "v1 v2", "path", "* -", kPaths},
+    Translation{integrator, "igi", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "ambientocclusion", "v2 v3 v4", "", "", ""},
+    Translation{integrator, "debug", "v1", "", "", ""},
+    Translation{integrator, "dipolesubsurface", "v2", "", "", ""},
+    Translation{integrator, "diffuseprt", "v2", "", "", ""},
+    Translation{integrator, "glossyprt", "v2", "", "", ""},
+    Translation{integrator, "useprobes", "v2", "", "", ""},
+    Translation{integrator, "function", "v4", "", "", ""},
+
+    Translation{light, "area", "v1 v2 v3", "diffuse", "", ""},
+    Translation{light, "infinitesample", "v1", "infinite", "", ""},
+    Translation{light, "exinfinite", "v3", "infinite", "", ""},
+
+    Translation{material, "diffuse", "v4", "matte", "reflectance Kd, displacement bumpmap", ""},
+    Translation{material, "dielectric", "v4", "glass", kBump, ""},
+    Translation{material, "conductor", "v4", "metal", kBump, ""},
+    Translation{material, "thindielectric", "v4", "thindielectric", kBump, ""},
+    Translation{material, "coateddiffuse", "v4", "coateddiffuse", kBump, ""},
+    Translation{material, "coatedconductor", "v4", "coatedconductor", kBump, ""},
+    Translation{material, "diffusetransmission", "v4", "diffusetransmission", kBump, ""},
+    Translation{material, "bluepaint", "v1", "matte", "", kPaint},
+    Translation{material, "clay", "v1", "matte", "", kPaint},
+    Translation{material, "felt", "v1", "matte", "", kPaint},
+    Translation{material, "primer", "v1", "matte", "", kPaint},
+    Translation{material, "skin", "v1", "matte", "", kPaint},
+    Translation{material, "brushedmetal", "v1", "metal", "",
+                "rough aluminium stands for what was measured"},
+    Translation{material, "measured", "v2 v4", "", "", ""},
+    Translation{material, "subsurface", "v2 v3 v4", "", "", ""},
+    Translation{material, "kdsubsurface", "v2 v3", "", "", ""},
+    Translation{material, "disney", "v3", "", "", ""},
+    Translation{material, "fourier", "v3", "", "", ""},
+    Translation{material, "hair", "v3 v4", "", "", ""},
+
+    Translation{sampler, "02sequence", "v3", "lowdiscrepancy", "", ""},
+    Translation{sampler, "independent", "v4", "random", "seed -", ""},
+    Translation{sampler, "stratified", "v4", "stratified", "seed -", ""},
+    Translation{sampler, "halton", "v4", "halton", "seed -, randomization -", ""},
+    Translation{sampler, "sobol", "v3 v4", "halton", "seed -, randomization -", kNoise},
+    Translation{sampler, "zsobol", "v4", "lowdiscrepancy", "seed -, randomization -", kNoise},
+    Translation{sampler, "paddedsobol", "v4", "lowdiscrepancy", "seed -, randomization -", kNoise},
+    Translation{sampler, "pmj02bn", "v4", "lowdiscrepancy", "seed -", kNoise},
+    Translation{sampler, "maxmindist", "v3", "lowdiscrepancy", "", kNoise},
+    Translation{sampler, "adaptive", "v2", "lowdiscrepancy", "maxsamples pixelsamples, * -",
+                "all pixels get the most samples"},
+
+    Translation{texture, "ptex", "v3 v4", "", "", ""},
+};
+
+// The next piece of a list up to a separator, blanks about it taken away.
+std::string_view next(std::string_view& list, char separator) {
+  const std::size_t end = std::min(list.find(separator), list.size());
+  std::string_view piece = list.substr(0, end);
+  list.remove_prefix(std::min(end + 1, list.size()));
+  while (piece.starts_with(' ')) piece.remove_prefix(1);
+  return piece;
+}
+
+// What the table calls a parameter here: its own name if it says nothing, "-" if it has no effect.
+std::string_view renamed(const Translation& t, std::string_view name) {
+  for (std::string_view list = t.parameters; !list.empty();) {
+    std::string_view pair = next(list, ',');
+    const std::string_view old = next(pair, ' ');
+    if (old == name || old == "*") return pair;
+  }
+  return name;
+}
+
+void deepen(Param& maxdepth) {
+  if (auto* values = std::get_if<std::vector<int>>(&maxdepth.values))
+    for (int& depth : *values) depth += depth < std::numeric_limits<int>::max() ? 1 : 0;
+}
+
+void alphaFromSigma(Param& sigma) {
+  auto* values = std::get_if<std::vector<float>>(&sigma.values);
+  if (!values || values->size() != 1 || !(values->front() > 0)) return;
+  sigma.name = "alpha";
+  values->front() = 1 / (2 * values->front() * values->front());
+}
+
+void lightStrategy(Param& strategy) {
+  if (auto* names = std::get_if<std::vector<std::string>>(&strategy.values))
+    for (std::string& name : *names)
+      if (name == "bvh" || name == "exhaustive") name = "spatial";
+}
+
+}  // namespace
+
+std::span<const Translation> translations() {
+  return kTable;
+}
+
+const Translation* findTranslation(PluginKind kind, std::string_view name) {
+  for (const Translation& t : kTable)
+    if (t.kind == kind && t.name == name) return &t;
+  return nullptr;
+}
+
+void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
+                         ParamList& params) {
+  const Translation* t = findTranslation(kind, name);
+  if (t && !t->parameters.empty()) {
+    std::erase_if(params, [&](const Param& p) { return renamed(*t, p.name) == "-"; });
+    for (Param& p : params) p.name = renamed(*t, p.name);
+  }
+  const bool path = kind == integrator && (name == "path" || (t && t->target == "path"));
+  const bool shallow = dialect == Dialect::v1 || (dialect == Dialect::v2 && path);
+  for (Param& p : params) {
+    if (kind == integrator && shallow && p.name == "maxdepth") deepen(p);
+    if (path && p.name == "lightsamplestrategy") lightStrategy(p);
+    if (kind == filter && name == "gaussian" && p.name == "sigma") alphaFromSigma(p);
+  }
+}
+
+}  // namespace pbrt
