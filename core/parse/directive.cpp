@@ -9,9 +9,11 @@ namespace {
 constexpr std::array kSyntax{Syntax{"Accelerator", Arguments::plugin},
                              Syntax{"ActiveTransform", Arguments::time},
                              Syntax{"AreaLightSource", Arguments::plugin},
+                             Syntax{"Attribute", Arguments::plugin},
                              Syntax{"AttributeBegin", Arguments::none},
                              Syntax{"AttributeEnd", Arguments::none},
                              Syntax{"Camera", Arguments::plugin},
+                             Syntax{"ColorSpace", Arguments::name},
                              Syntax{"ConcatTransform", Arguments::numbers, 16},
                              Syntax{"CoordinateSystem", Arguments::name},
                              Syntax{"CoordSysTransform", Arguments::name},
@@ -28,6 +30,7 @@ constexpr std::array kSyntax{Syntax{"Accelerator", Arguments::plugin},
                              Syntax{"ObjectBegin", Arguments::name},
                              Syntax{"ObjectEnd", Arguments::none},
                              Syntax{"ObjectInstance", Arguments::name},
+                             Syntax{"Option", Arguments::option},
                              Syntax{"PixelFilter", Arguments::plugin},
                              Syntax{"Renderer", Arguments::plugin},
                              Syntax{"ReverseOrientation", Arguments::none},
@@ -66,7 +69,7 @@ std::optional<DirectiveKind> findDirective(std::string_view keyword) {
 }
 
 std::vector<std::string> directiveNames() {
-  std::vector<std::string> names{"Include"};
+  std::vector<std::string> names{"Include", "Import"};
   for (const Syntax& s : kSyntax) names.emplace_back(s.keyword);
   return names;
 }

@@ -16,9 +16,11 @@ enum class DirectiveKind : std::uint8_t {
   Accelerator,
   ActiveTransform,
   AreaLightSource,
+  Attribute,
   AttributeBegin,
   AttributeEnd,
   Camera,
+  ColorSpace,
   ConcatTransform,
   CoordinateSystem,
   CoordSysTransform,
@@ -35,6 +37,7 @@ enum class DirectiveKind : std::uint8_t {
   ObjectBegin,
   ObjectEnd,
   ObjectInstance,
+  Option,
   PixelFilter,
   Renderer,
   ReverseOrientation,
@@ -55,7 +58,7 @@ enum class DirectiveKind : std::uint8_t {
   WorldBegin,
   WorldEnd
 };
-// Include is not among them: the parser carries it out.
+// Include and Import are not among them: the parser carries them out.
 
 // What follows a keyword; the values in [] may be left out.
 enum class Arguments : std::uint8_t {
@@ -65,7 +68,8 @@ enum class Arguments : std::uint8_t {
   plugin,   // "name" parameters
   texture,  // "name" "type" "class" parameters
   numbers,  // so many numbers, in brackets or not
-  time      // StartTime, EndTime or All
+  time,     // StartTime, EndTime or All
+  option    // one parameter, whose type may be left out
 };
 
 struct Syntax {

@@ -138,14 +138,14 @@ std::vector<T> numbersOf(const Value& value, std::string_view wanted) {
 
 template std::vector<double> numbersOf(const Value&, std::string_view);
 
-Param makeParam(const Location& declaration, const Value& value) {
-  const std::vector<Location> parts = words(declaration);
-  if (parts.size() != 2)
-    throw Error(declaration, "expected the type and the name of a parameter, as in \"float fov\"");
-  const TypeRule& rule = findType(parts[0]);
+namespace {
+
+// The parameter of this type and name.
+Param typed(const TypeRule& rule, const Location& name, const Location& declaration,
+            const Value& value) {
   const std::string wanted = fmt::format("numbers, as the type is {}", rule.name);
 
-  Param param{rule.type, std::string(textAt(parts[1])), declaration, value.where, {}};
+  Param param{rule.type, std::string(textAt(name)), declaration, value.where, {}};
   switch (rule.type) {
     case ParamType::boolean:
       param.values = booleansOf(value);
@@ -174,6 +174,30 @@ Param makeParam(const Location& declaration, const Value& value) {
       param.values = std::move(numbers);
   }
   return param;
+}
+
+// What a value is if nobody says it.
+std::string_view typeOf(const Value& value) {
+  const std::string_view text = textAt(value.items.empty() ? value.where : value.items[0]);
+  if (text == "true" || text == "false") return "bool";
+  if (text.starts_with('"')) return "string";
+  return text.find_first_of(".eE") == text.npos ? "integer" : "float";
+}
+
+}  // namespace
+
+Param makeParam(const Location& declaration, const Value& value) {
+  const std::vector<Location> parts = words(declaration);
+  if (parts.size() != 2)
+    throw Error(declaration, "expected the type and the name of a parameter, as in \"float fov\"");
+  return typed(findType(parts[0]), parts[1], declaration, value);
+}
+
+Param makeOption(const Location& declaration, const Value& value) {
+  const std::vector<Location> parts = words(declaration);
+  if (parts.size() != 1) return makeParam(declaration, value);
+  const auto* rule = std::ranges::find(kTypes, typeOf(value), &TypeRule::name);
+  return typed(*rule, parts[0], declaration, value);
 }
 
 }  // namespace pbrt

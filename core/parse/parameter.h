@@ -26,4 +26,8 @@ std::vector<T> numbersOf(const Value& value, std::string_view wanted);
 // what is wrong: the declaration, the type, one of the values, or their count.
 Param makeParam(const Location& declaration, const Value& value);
 
+// The same for Option, where the type may be left out, as pbrt-v4 itself does: "seed" 1. The value
+// then tells it: bool, integer, float or string.
+Param makeOption(const Location& declaration, const Value& value);
+
 }  // namespace pbrt

@@ -22,7 +22,7 @@
 
 namespace pbrt {
 class Scanner;
-// Carries out an Include of the quoted name at this place.
+// Carries out an Include or Import of the quoted name at this place.
 using IncludeHandler = std::function<void(const Location& name)>;
 }  // namespace pbrt
 }
@@ -82,12 +82,23 @@ Directive activeTransform(DirectiveKind kind, const Location& where, const Locat
   return directive;
 }
 
+Directive option(DirectiveKind kind, const Location& where, const Location& declaration,
+                 const Value& value) {
+  Directive directive{kind, where};
+  directive.params.push_back(makeOption(declaration, value));
+  return directive;
+}
+
+std::string didYouMeanBool(const Location& word) {
+  return didYouMean(textAt(word), std::vector<std::string>{"true", "false"});
+}
+
 }  // namespace
 }  // namespace pbrt
 }
 
 %token END 0
-%token <DirectiveKind> PLAIN NAMED MEDIA PLUGIN TEXTURE NUMERIC TIME
+%token <DirectiveKind> PLAIN NAMED MEDIA PLUGIN TEXTURE NUMERIC TIME OPTION
 %token INCLUDE STRING NUMBER BOOL WORD OPEN CLOSE
 %token LIST  /* numbers in brackets */
 
@@ -108,6 +119,7 @@ statement:
   | TEXTURE STRING STRING STRING parameters   { sink(named($1, @1, {@2, @3, @4}, $5)); }
   | NUMERIC numbers                           { sink(numeric($1, @1, $2)); }
   | TIME WORD                                 { sink(activeTransform($1, @1, @2)); }
+  | OPTION STRING value                       { sink(option($1, @1, @2, $3)); }
   | INCLUDE STRING                            { include(@2); }
   ;
 
@@ -164,7 +176,8 @@ void SceneParser::report_syntax_error(const context& ctx) const {
 
   if (expects(symbol_kind::S_CLOSE)) {
     if (nextStatement) throw Error(scanner.bracket, "this [ is not closed");
-    throw Error(ctx.location(), "expected numbers, quoted strings, true or false in the list");
+    throw Error(ctx.location(), "expected numbers, quoted strings, true or false in the list" +
+                                    (isName ? didYouMeanBool(ctx.location()) : ""));
   }
   if (expects(symbol_kind::S_PLAIN)) {
     if (isName)
@@ -184,7 +197,8 @@ void SceneParser::report_syntax_error(const context& ctx) const {
     return Error(nextStatement ? after : ctx.location(), "expected " + what);
   };
   if (expects(symbol_kind::S_OPEN) && expects(symbol_kind::S_STRING))
-    throw missing(scanner.string, "the value of the parameter");
+    throw missing(scanner.string,
+                  "the value of the parameter" + (isName ? didYouMeanBool(ctx.location()) : ""));
   const Location& statement = nextStatement && !isEnd ? scanner.keywordBefore : scanner.keyword;
   const std::string_view keyword = textAt(statement);
   if (expects(symbol_kind::S_OPEN))
@@ -193,6 +207,8 @@ void SceneParser::report_syntax_error(const context& ctx) const {
     throw missing(statement, "StartTime, EndTime or All after ActiveTransform");
   if (keyword == "Texture")
     throw missing(statement, "three quoted names after Texture: name, type and class");
+  if (keyword == "Option")
+    throw missing(statement, "a parameter after Option, as in \"integer seed\" 1");
   throw missing(statement, fmt::format("a quoted name after {}", keyword));
 }
 

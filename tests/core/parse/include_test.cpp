@@ -60,6 +60,14 @@ TEST_F(Include, IsReadInItsPlace) {
             "123423");
 }
 
+TEST_F(Include, IsWhatImportIsToo) {
+  write("sub/b.pbrt", "Shape \"2\" Import \"c.pbrt\"");
+  write("sub/c.pbrt", "Shape \"3\"");
+  EXPECT_EQ(read(write("a.pbrt", "Shape \"1\" Import \"sub/b.pbrt\" Shape \"4\"")), "1234");
+  expectError(write("d.pbrt", "Import \"d.pbrt\""), "d.pbrt", 1, 8,
+              (folder_ / "d.pbrt").string() + " includes itself");
+}
+
 TEST_F(Include, IsFoundBesideTheIncludingFileOrTheFirst) {
   write("geometry/b.pbrt", "Shape \"b\" Include \"c.pbrt\" Include \"geometry/d.pbrt\"");
   write("geometry/c.pbrt", "Shape \"c\"");

@@ -17,6 +17,25 @@ TEST(ParseErrors, UnknownDirectives) {
             "2:1: expected a number or a directive; did you mean \"Shape\"?");
 }
 
+TEST(ParseErrors, KeywordsInTheWrongCase) {
+  EXPECT_EQ(errorOf("worldbegin"), "1:1: unknown directive; did you mean \"WorldBegin\"?");
+  EXPECT_EQ(errorOf("Scale 1 1 1 SHAPE \"s\""),
+            "1:13: expected a number or a directive; did you mean \"Shape\"?");
+  EXPECT_EQ(errorOf("Shape \"s\" \"bool x\" True"),
+            "1:20: expected the value of the parameter; did you mean \"true\"?");
+}
+
+TEST(ParseErrors, Options) {
+  const std::string wanted = "expected a parameter after Option, as in \"integer seed\" 1";
+  EXPECT_EQ(errorOf("Option"), "1:1: " + wanted);
+  EXPECT_EQ(errorOf("Option seed 1"), "1:8: " + wanted);
+  EXPECT_EQ(errorOf("Option \"integer seed\""), "1:8: expected the value of the parameter");
+  EXPECT_EQ(errorOf("Option \"integer seed\" 1.5"), "1:23: 1.5 is not an integer");
+  EXPECT_EQ(errorOf("Option \"seed\" 1 \"b\" 2"), "1:17: expected a directive");
+  EXPECT_EQ(errorOf("Option \"\" 1"),
+            "1:8: expected the type and the name of a parameter, as in \"float fov\"");
+}
+
 TEST(ParseErrors, MissingNames) {
   EXPECT_EQ(errorOf("Shape"), "1:1: expected a quoted name after Shape");
   EXPECT_EQ(errorOf("\n Shape\nWorldEnd"), "2:2: expected a quoted name after Shape");

@@ -39,6 +39,9 @@ std::string example(DirectiveKind kind) {
     case Arguments::time:
       text += " EndTime";
       break;
+    case Arguments::option:
+      text += " \"bool a\" true";
+      break;
   }
   return text;
 }
@@ -63,7 +66,9 @@ TEST(Directives, EachKindIsReadWithItsArguments) {
     if (isTexture) words = {"n", "o", "p"};
     EXPECT_EQ(d.words, words) << text;
     EXPECT_EQ(d.wordsWhere.size(), words.size());
-    EXPECT_EQ(d.params.size(), isTexture || s.arguments == Arguments::plugin ? 2U : 0U) << text;
+    std::size_t params = isTexture || s.arguments == Arguments::plugin ? 2 : 0;
+    if (s.arguments == Arguments::option) params = 1;
+    EXPECT_EQ(d.params.size(), params) << text;
     for (std::size_t k = 0; k < 16; ++k)
       EXPECT_EQ(d.numbers.at(k), k < s.numbers ? static_cast<double>(k) + 0.5 : 0) << text;
   }
@@ -85,6 +90,23 @@ TEST(Directives, WhatIsOptionalMayBeLeftOut) {
   EXPECT_EQ(parsed.directives[0].words, std::vector<std::string>{"fog"});
   EXPECT_TRUE(parsed.directives[1].params.empty());
   EXPECT_TRUE(parsed.directives[2].params.empty());
+}
+
+TEST(Directives, OptionsMayLeaveOutTheType) {
+  const auto option = [](const std::string& text) {
+    return Parsed("Option " + text).directives.at(0).params.at(0);
+  };
+  for (const char* text : {"\"seed\" 7", "\"integer seed\" 7", "\"integer seed\" [7]"}) {
+    const Param p = option(text);
+    EXPECT_EQ(p.name, "seed");
+    EXPECT_EQ(p.type, ParamType::integer) << text;
+    EXPECT_EQ(std::get<std::vector<int>>(p.values), std::vector<int>{7});
+  }
+  EXPECT_EQ(option("\"a\" true").type, ParamType::boolean);
+  EXPECT_EQ(option("\"a\" [false]").type, ParamType::boolean);
+  EXPECT_EQ(option("\"a\" 1.5").type, ParamType::number);
+  EXPECT_EQ(option("\"a\" [1e3]").type, ParamType::number);
+  EXPECT_EQ(option("\"rendercoordsys\" \"true\"").type, ParamType::string);
 }
 
 TEST(Directives, NumbersStandInBracketsOrBare) {
