@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <cctype>
+#include <iterator>
+#include <sstream>
+
+#include "core/scene/translation.h"
+
 namespace pbrt {
 
 namespace {
@@ -64,6 +70,45 @@ std::vector<Declaration> declarations(const PluginInfo& plugin, PluginKind kind)
   return found;
 }
 
+// The words of a text.
+std::vector<std::string> split(std::string_view text) {
+  std::istringstream in{std::string(text)};
+  return {std::istream_iterator<std::string>(in), {}};
+}
+
+std::string renames(const Translation& t) {
+  std::string text;
+  const std::vector<std::string> words = split(t.parameters);
+  for (std::size_t i = 0; i + 1 < words.size(); i += 2) {
+    std::string to = words[i + 1];
+    if (to.ends_with(',')) to.pop_back();
+    if (words[i] == to) continue;
+    const std::string from = words[i] == "*" ? "all others" : fmt::format("`{}`", words[i]);
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", from,
+                        to == "-" ? "without effect" : fmt::format("is `{}`", to));
+  }
+  return text;
+}
+
+// What stands for the name of another generation, in words.
+std::string meaning(const Translation& t) {
+  if (t.target.empty()) return "not here yet";
+  std::string text = fmt::format("\"{}\"", t.target);
+  if (!t.differs.empty()) text += fmt::format("; {}", t.differs);
+  return text;
+}
+
+// Names that only differ in their parameters are no other names.
+bool isOtherName(const PluginLoader& loader, const Translation& t) {
+  return t.name != t.target && !loader.has(t.kind, std::string(t.name));
+}
+
+std::string inMarkdown(std::string text) {
+  for (std::size_t at = 0; (at = text.find_first_of("|<", at)) != text.npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
+}
+
 }  // namespace
 
 std::string listPlugins(PluginLoader& loader) {
@@ -78,6 +123,10 @@ std::string listPlugins(PluginLoader& loader) {
         text += fmt::format("  {:<16} cannot be used: {}\n", name, error.what());
       }
     }
+    for (const Translation& t : translations())
+      if (t.kind == kind && isOtherName(loader, t))
+        text += fmt::format("  {:<16} of pbrt-{}: {}\n", t.name, fmt::join(split(t.of), ", "),
+                            meaning(t));
   }
   return text;
 }
@@ -93,6 +142,38 @@ std::string describePlugin(PluginLoader& loader, const std::string& kindText,
     const std::string unit = d.unit.empty() ? "" : fmt::format(" [{}]", d.unit);
     text += fmt::format("  {:<17} {:<17} {}{}{}\n", d.type, d.name, d.meaning, unit, fallback);
   }
+  return text;
+}
+
+std::string describeAll(PluginLoader& loader) {
+  std::string text =
+      "# Plug-ins and their parameters\n\nMade by `pbrt --describe all`; do not edit. What the "
+      "types mean is in [scene-format.md](scene-format.md).\n";
+  for (std::uint32_t i = 0; i < kPluginKinds; ++i) {
+    const auto kind = static_cast<PluginKind>(i);
+    std::string title(kindFolder(kind));
+    title[0] = static_cast<char>(std::toupper(title[0]));
+    text += fmt::format("\n## {}\n", title);
+    for (const std::string& name : loader.available(kind)) {
+      const PluginInfo& plugin = loader.open(kind, name);
+      text += fmt::format("\n### {}\n\n{}\n", name, inMarkdown(plugin.summary));
+      const auto parameters = declarations(plugin, kind);
+      if (parameters.empty()) continue;
+      text += "\n| parameter | default | meaning |\n| --- | --- | --- |\n";
+      for (const Declaration& d : parameters)
+        text +=
+            fmt::format("| {} `{}` | {} | {}{} |\n", d.type, d.name,
+                        d.defaultValue == "-" ? "" : inMarkdown(d.defaultValue),
+                        inMarkdown(d.meaning), d.unit.empty() ? "" : fmt::format(" [{}]", d.unit));
+    }
+  }
+  text +=
+      "\n## Names of other generations\n\n| kind | name | of pbrt- | here | renamed parameters |\n"
+      "| --- | --- | --- | --- | --- |\n";
+  for (const Translation& t : translations())
+    if (!t.parameters.empty() || isOtherName(loader, t))
+      text += fmt::format("| {} | {} | {} | {} | {} |\n", kindName(t.kind), t.name,
+                          fmt::join(split(t.of), ", "), meaning(t), inMarkdown(renames(t)));
   return text;
 }
 

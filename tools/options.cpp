@@ -86,9 +86,16 @@ void defineOptions(CLI::App& app, Options& o) {
                  "Folders searched first for plug-ins, separated by "
                  "colons (also: PBRT_PLUGIN_PATH)");
   app.add_flag("--list-plugins", o.listPlugins, "List the plug-ins that there are");
-  app.add_option("--describe", o.describe, "Show a plug-in's parameters: KIND NAME")->expected(2);
-  app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3")
-      ->check(CLI::IsMember({"v1", "v2", "v3"}));
+  app.add_option("--describe", o.describe,
+                 "Show a plug-in's parameters: KIND NAME; all: those of every plug-in, in Markdown")
+      ->expected(1, 2)
+      ->allow_extra_args(false);
+  app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3, v4")
+      ->check(CLI::IsMember({"v1", "v2", "v3", "v4"}));
+  app.add_flag("--check", o.check,
+               "Read and build the scene, tell all that is wrong, render nothing");
+  app.add_flag("--permissive", o.permissive,
+               "Go on where the scene is wrong: what cannot be had is magenta, or left out");
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
 }
 
@@ -116,6 +123,8 @@ std::vector<std::string> words(int argc, char** argv) {
 
 void finishOptions(Options& o) {
   if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
+  if (o.describe.size() == 1 && o.describe[0] != "all")
+    throw Error("--describe takes KIND NAME, or all", Failure::usage);
   if (o.samplesPerPixel) o.build.samplesPerPixel = o.samplesPerPixel;
   if (!o.samples.empty()) readRange(o.samples, o.goal);
   for (const std::string& name : o.aovs) o.aovSet |= *aovByName(name);
@@ -132,12 +141,12 @@ void finishOptions(Options& o) {
     std::copy(o.pixelBounds.begin(), o.pixelBounds.end(), o.build.pixelBounds->begin());
   }
   if (o.files.empty()) o.files = {"-"};
-  o.build.report = [quiet = o.quiet, level = o.logLevel](const Diagnostic& d) {
-    const bool wanted =
-        d.severity == Severity::error ||
-        (!quiet && (d.severity == Severity::warning ? level != "error" : level == "verbose"));
-    if (wanted) fmt::print(stderr, "{}\n", format(d));
-  };
+  const Severity least = o.quiet || o.logLevel == "error" ? Severity::error
+                         : o.logLevel == "verbose"        ? Severity::note
+                                                          : Severity::warning;
+  o.reports = std::make_shared<Reports>(least);
+  o.build.permissive = o.permissive || o.check;
+  o.build.report = [reports = o.reports](const Diagnostic& d) { reports->add(d); };
 }
 
 Goal goalOf(const Options& o, int samplesPerPixel) {

@@ -5,6 +5,7 @@
 
 #include "core/scene/builder.h"
 #include "passes.h"
+#include "reports.h"
 
 namespace pbrt {
 
@@ -23,6 +24,9 @@ struct Options {
   bool quiet = false;
   bool stats = false;
   std::string logLevel = "warning";
+  bool check = false;
+  bool permissive = false;
+  std::shared_ptr<Reports> reports;  // where build.report goes
   std::string pluginPath;
   bool listPlugins = false;
   std::vector<std::string> describe;

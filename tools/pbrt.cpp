@@ -22,7 +22,8 @@ double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void readScene(Parser& parser, const std::vector<std::string>& files) {
+// Parses the scene files. Their text is in `parser`, for messages to quote.
+void parse(Parser& parser, const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (file == "-")
       parser.text("<stdin>", {std::istreambuf_iterator<char>(std::cin), {}});
@@ -32,18 +33,18 @@ void readScene(Parser& parser, const std::vector<std::string>& files) {
 }
 
 struct Times {
-  double start = now(), parsed = 0, built = 0, rendered = 0, written = 0;
+  double start = now(), built = 0, rendered = 0, written = 0;
 };
 
-void printStats(const Options& o, const Scene& scene, const PluginLoader& loader,
-                const RenderControl& control, std::uint32_t samples, const Times& t) {
+void printStats(const Scene& scene, const PluginLoader& loader, const RenderControl& control,
+                std::uint32_t samples, const Times& t) {
   std::size_t available = 0;
   for (std::uint32_t i = 0; i < kPluginKinds; ++i)
     available += loader.available(static_cast<PluginKind>(i)).size();
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  fmt::print("Seconds   parse {:.3f}, build {:.3f}, render {:.3f}, write {:.3f}\n",
-             t.parsed - t.start, t.built - t.parsed, t.rendered - t.built, t.written - t.rendered);
+  fmt::print("Seconds   read and build {:.3f}, render {:.3f}, write {:.3f}\n", t.built - t.start,
+             t.rendered - t.built, t.written - t.rendered);
   fmt::print("Samples   {} per pixel\n", samples);
   fmt::print("Rays      {} ({:.2f} Mrays/s)\n", control.rays.load(),
              static_cast<double>(control.rays) / (t.rendered - t.built) / 1e6);
@@ -96,14 +97,40 @@ std::uint32_t renderPasses(const Options& o, Scene& scene, const Goal& goal, Ren
   }
 }
 
-void render(const Options& o, PluginLoader& loader) {
-  Times t;
-  std::vector<Directive> directives;
-  Parser parser([&](Directive&& d) { directives.push_back(std::move(d)); });
-  readScene(parser, o.files);
-  t.parsed = now();
+void note(const Options& o, const std::string& message) {
+  o.build.report({Severity::note, message});
+}
 
-  const auto scene = buildScene(std::move(directives), loader, o.build);
+// Says what was passed over. Returns the exit code for a scene with so many errors.
+int judge(const Options& o) {
+  const std::size_t errors = o.reports->errors();
+  if (errors == 0) return 0;
+  fmt::print(stderr, "{} error{}{}\n", errors, errors == 1 ? "" : "s",
+             o.permissive ? " passed over: the picture is not what the scene asks for" : "");
+  return o.permissive ? 0 : static_cast<int>(Failure::scene);
+}
+
+int check(const Options& o, PluginLoader& loader) {
+  SceneReader reader(loader, o.build);
+  Parser parser([&](Directive&& d) { reader.read(std::move(d)); });
+  parse(parser, o.files);
+  const auto scene = reader.finish();
+  const DetectedDialect& dialect = reader.dialect();
+  if (!o.quiet)
+    fmt::print("{}: pbrt-{} ({}); {} shapes, {} lights, {} instances, {} plug-ins\n",
+               fmt::join(o.files, " "), dialectName(dialect.dialect), dialect.reason,
+               scene->shapes(), scene->lights().size(), scene->instances(), loader.opened().size());
+  return judge(o);
+}
+
+int render(const Options& o, PluginLoader& loader) {
+  Times t;
+  SceneReader reader(loader, o.build);
+  Parser parser([&](Directive&& d) { reader.read(std::move(d)); });
+  parse(parser, o.files);
+  const auto scene = reader.finish();
+  note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
+                      reader.dialect().reason));
   std::vector<std::string> outputs = o.outputs;
   if (outputs.empty()) outputs = {scene->outputFile()};
   for (const std::string& output : outputs) checkWritable(output);
@@ -120,9 +147,11 @@ void render(const Options& o, PluginLoader& loader) {
                                 control.badSamples.load())});
   writePictures(o, *scene, goal, samples, t.rendered - t.built, outputs);
   t.written = now();
-  if (o.quiet) return;
-  for (const std::string& output : outputs) fmt::print("{}\n", output);
-  if (o.stats) printStats(o, *scene, loader, control, samples, t);
+  if (!o.quiet) {
+    for (const std::string& output : outputs) fmt::print("{}\n", output);
+    if (o.stats) printStats(*scene, loader, control, samples, t);
+  }
+  return judge(o);
 }
 
 int run(const Options& o) {
@@ -130,9 +159,12 @@ int run(const Options& o) {
   if (o.listPlugins)
     fmt::print("{}", listPlugins(loader));
   else if (!o.describe.empty())
-    fmt::print("{}", describePlugin(loader, o.describe[0], o.describe[1]));
+    fmt::print("{}", o.describe[0] == "all" ? describeAll(loader)
+                                            : describePlugin(loader, o.describe[0], o.describe[1]));
+  else if (o.check)
+    return check(o, loader);
   else
-    render(o, loader);
+    return render(o, loader);
   return 0;
 }
 

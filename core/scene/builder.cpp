@@ -42,6 +42,17 @@ std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
   }
 }
 
+// What is outside the gamut of Rec. 709 is moved to its border: no colour is negative.
+void toRec709(Param& colours, ColorSpace space) {
+  auto* values = std::get_if<std::vector<float>>(&colours.values);
+  if (!values) return;
+  const glm::dmat3 m = rec709From(space);
+  for (std::size_t i = 0; i + 2 < values->size(); i += 3) {
+    const DVec3 c = m * DVec3((*values)[i], (*values)[i + 1], (*values)[i + 2]);
+    for (int k = 0; k < 3; ++k) (*values)[i + k] = static_cast<float>(std::max(0.0, c[k]));
+  }
+}
+
 }  // namespace
 
 void SceneBuilder::handle(Directive&& d) {
@@ -65,7 +76,7 @@ void SceneBuilder::handle(Directive&& d) {
 
 void SceneBuilder::carryOut(Directive&& d) {
   if (transforms_.apply(d, factory_.dialect(), options_.report)) return;
-  refuseUnsupported(d);
+  if (concernsMedia(d)) return;
   toThisGeneration(d);
   if (handleStack(d) || handleOption(d) || handleAttribute(d)) return;
   handleWorld(d);
@@ -81,18 +92,18 @@ void SceneBuilder::toThisGeneration(Directive& d) const {
       if (p.type == ParamType::rgb) toRec709(p, colorSpace_);
 }
 
-void SceneBuilder::refuseUnsupported(const Directive& d) const {
+// Media are read, and left out of the picture.
+bool SceneBuilder::concernsMedia(const Directive& d) {
   using enum DirectiveKind;
-  const bool medium = d.kind == MakeNamedMedium || d.kind == Volume ||
-                      (d.kind == MediumInterface &&
-                       std::any_of(d.words.begin(), d.words.end(),
-                                   [](const std::string& word) { return !word.empty(); }));
-  if (medium)
-    throw Error(d.where,
-                fmt::format("{}: participating media are not there yet", directiveName(d.kind)));
-  if (d.kind == Renderer && d.words.at(0) != "sampler")
-    throw Error(d.wordsWhere.at(0),
-                fmt::format("there is no renderer \"{}\", only \"sampler\"", d.words[0]));
+  if (d.kind != MakeNamedMedium && d.kind != Volume && d.kind != MediumInterface) return false;
+  const bool some = d.kind != MediumInterface ||
+                    std::any_of(d.words.begin(), d.words.end(),
+                                [](const std::string& word) { return !word.empty(); });
+  if (some && !media_)
+    factory_.report(Severity::warning, d.where,
+                    "participating media are not there yet: the picture shows clear air");
+  media_ = media_ || some;
+  return true;
 }
 
 bool SceneBuilder::handleStack(const Directive& d) {
@@ -157,9 +168,12 @@ bool SceneBuilder::handleOption(Directive& d) {
     case Option:
     case Accelerator:       // the ray tree is Embree's
     case VolumeIntegrator:  // without a volume it does nothing
-    case Renderer:
-    case SearchPath:  // of pbrt-v1's own plug-ins
+    case SearchPath:        // of pbrt-v1's own plug-ins
       break;
+    case Renderer:
+      if (d.words.at(0) == "sampler") break;
+      throw Error(d.wordsWhere.at(0),
+                  fmt::format("there is no renderer \"{}\", only \"sampler\"", d.words[0]));
     default:
       return false;
   }
@@ -206,7 +220,6 @@ void SceneBuilder::beginWorld(const Directive& d) {
 void SceneBuilder::handleWorld(Directive& d) {
   using enum DirectiveKind;
   if (d.kind == WorldBegin) return beginWorld(d);
-  if (d.kind == MediumInterface) return;  // from nothing to nothing; see refuseUnsupported
   if (!inWorld_)
     throw Error(d.where, fmt::format("{} belongs after WorldBegin", directiveName(d.kind)));
   switch (d.kind) {

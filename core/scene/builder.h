@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/plugin/loader.h"
 #include "core/scene/dialect.h"
 #include "core/scene/scene.h"
 

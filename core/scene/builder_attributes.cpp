@@ -95,15 +95,14 @@ void SceneBuilder::defineTexture(Directive& d) {
   if (!inWorld_) throw Error(d.where, "Texture belongs after WorldBegin");
   const std::string& type = d.words.at(1);
   const auto define = [&]<class T>(std::type_identity<T>) {
-    resources_.define(
-        attributes_.scope, d.words[0],
-        TextureDefinition<T>{d.words.at(2),
-                             std::move(d.params),
-                             defaultsFor(AttributeTarget::texture, d.words[2]),
-                             d.where,
-                             {transforms_.current(), transforms_.base()},
-                             attributes_.scope,
-                             nullptr});
+    resources_.define(attributes_.scope, d.words[0],
+                      TextureDefinition<T>{d.words.at(2),
+                                           std::move(d.params),
+                                           defaultsFor(AttributeTarget::texture, d.words[2]),
+                                           d.where,
+                                           {transforms_.current(), transforms_.base()},
+                                           attributes_.scope,
+                                           nullptr});
   };
   if (type == "float")
     define(std::type_identity<float>());

@@ -34,7 +34,8 @@ Bounds2i SceneBuilder::cropBounds(Params& film, Point2i resolution) const {
   if (!inPixels.empty() && inPixels.size() != 4)
     film.fail("pixelbounds", fmt::format("needs 4 numbers, not {}", inPixels.size()));
   if (!inPixels.empty() && !options_.cropWindow)
-    bounds = intersect({{0, 0}, resolution}, {{inPixels[0], inPixels[2]}, {inPixels[1], inPixels[3]}});
+    bounds =
+        intersect({{0, 0}, resolution}, {{inPixels[0], inPixels[2]}, {inPixels[1], inPixels[3]}});
   if (const auto& p = options_.pixelBounds)
     bounds = intersect({{0, 0}, resolution}, {{(*p)[0], (*p)[2]}, {(*p)[1], (*p)[3]}});
   if (bounds.empty())
@@ -48,12 +49,13 @@ std::uint8_t SceneBuilder::filmAovs(const Directive& film) const {
   const std::string& name = film.words.at(0);
   if (name == "gbuffer") return kAlbedo | kNormal | kPosition | kDepth | kVariance;
   if (name == "spectral")
-    factory_.report(Severity::warning, film.where,
-                    "film \"spectral\" is read as \"rgb\": light is carried as red, green and blue");
+    factory_.report(
+        Severity::warning, film.where,
+        "film \"spectral\" is read as \"rgb\": light is carried as red, green and blue");
   else if (std::find(names.begin(), names.end(), name) == names.end())
-    throw Error(film.wordsWhere.at(0), fmt::format("there is no film \"{}\" (it is one of {}){}",
-                                                   shown(name), fmt::join(names, ", "),
-                                                   didYouMean(name, names)));
+    throw Error(film.wordsWhere.at(0),
+                fmt::format("there is no film \"{}\" (it is one of {}){}", shown(name),
+                            fmt::join(names, ", "), didYouMean(name, names)));
   return 0;
 }
 

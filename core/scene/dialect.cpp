@@ -14,6 +14,10 @@ namespace {
 constexpr std::uint8_t kV1 = 1, kV2 = 2, kV3 = 4, kV4 = 8;
 constexpr std::uint8_t kAll = kV1 | kV2 | kV3 | kV4;
 
+unsigned bit(Dialect dialect) {
+  return 1U << (static_cast<unsigned>(dialect) - 1);
+}
+
 struct TellTale {
   std::uint8_t generations;
   std::string_view names;  // separated by blanks
@@ -22,17 +26,17 @@ struct TellTale {
 constexpr std::array kMaterials = {
     TellTale{kV1, "shinymetal bluepaint clay felt primer skin brushedmetal"},
     TellTale{kV3, "disney fourier"},
-    TellTale{kV4, "diffuse dielectric conductor thindielectric coateddiffuse coatedconductor "
-                  "diffusetransmission interface measured"},
+    TellTale{kV4,
+             "diffuse dielectric conductor thindielectric coateddiffuse coatedconductor "
+             "diffusetransmission interface measured"},
     TellTale{kV2 | kV3, "metal kdsubsurface"},
     TellTale{kV1 | kV2 | kV3, "matte plastic glass mirror substrate translucent uber"},
 };
 constexpr std::array kFilms = {TellTale{kV1 | kV2 | kV3, "image"},
                                TellTale{kV4, "rgb gbuffer spectral"}};
-constexpr std::array kSamplers = {TellTale{kV4, "zsobol paddedsobol pmj02bn independent"},
-                                  TellTale{kV3, "02sequence maxmindist"},
-                                  TellTale{kV3 | kV4, "sobol"}, TellTale{kV2, "adaptive"},
-                                  TellTale{kV1 | kV2, "bestcandidate"}};
+constexpr std::array kSamplers = {
+    TellTale{kV4, "zsobol paddedsobol pmj02bn independent"}, TellTale{kV3, "02sequence maxmindist"},
+    TellTale{kV3 | kV4, "sobol"}, TellTale{kV2, "adaptive"}, TellTale{kV1 | kV2, "bestcandidate"}};
 constexpr std::array kCameras = {TellTale{kV1 | kV2 | kV3, "environment"},
                                  TellTale{kV4, "spherical"}};
 constexpr std::array kAreaLights = {TellTale{kV1 | kV2 | kV3, "area"}};
@@ -189,18 +193,20 @@ void DialectDetector::look(const Directive& d) {
 }
 
 DetectedDialect DialectDetector::result() const {
-  std::uint8_t left = left_;
-  std::string reason;
-  if (where_.source) reason = fmt::format("{} tells", told_);
-  if (!decided() && world_ && !worldEnd_ && (left & kV4)) {
-    left = kV4;
-    reason = "it has no WorldEnd";
-  } else if (!decided()) {
-    left &= (left & kV2) != 0 ? kV2 : kV1 | kV3;
-    reason = where_.source ? fmt::format("{} leaves it open", told_)
-                           : "nothing in it tells which pbrt it is for";
-  }
-  return {static_cast<Dialect>(std::countr_zero(left) + 1), where_, reason};
+  if (decided())
+    return {static_cast<Dialect>(std::countr_zero(left_) + 1), where_,
+            fmt::format("{} tells", told_)};
+  if (world_ && !worldEnd_ && (left_ & kV4) != 0) return {Dialect::v4, {}, "it has no WorldEnd"};
+  const Dialect dialect = (left_ & kV2) != 0   ? Dialect::v2
+                          : (left_ & kV3) != 0 ? Dialect::v3
+                                               : Dialect::v1;
+  std::string others;
+  for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3, Dialect::v4})
+    if (d != dialect && (left_ & bit(d)) != 0 && (d != Dialect::v4 || !worldEnd_))
+      others += fmt::format("{}{}", others.empty() ? "" : " or ", dialectName(d));
+  return {dialect, where_,
+          others.empty() ? fmt::format("{} and WorldEnd tell", told_)
+                         : fmt::format("nothing tells it from {}; --dialect does", others)};
 }
 
 DetectedDialect detectDialect(const std::vector<Directive>& scene) {
@@ -222,9 +228,9 @@ const DialectDefaults& dialectDefaults(Dialect dialect) {
 
 const ParamList& parameterDefaults(Dialect dialect, PluginKind kind, const std::string& name) {
   static const ParamList none;
-  const unsigned bit = 1U << (static_cast<unsigned>(dialect) - 1);
   for (const DefaultsRow& row : defaultsTable())
-    if (row.kind == kind && row.name == name && (row.generations & bit)) return row.defaults;
+    if (row.kind == kind && row.name == name && (row.generations & bit(dialect)) != 0)
+      return row.defaults;
   return none;
 }
 

@@ -124,9 +124,9 @@ std::shared_ptr<const Material> MaterialDefinition::shared(Resources& resources,
                                                            const Scope& shapeScope) {
   const Scope& scope = scope_ ? *scope_ : shapeScope;
   const auto isTexture = [](const Param& p) { return p.type == ParamType::texture; };
-  const bool usesTextures = std::any_of(params_.begin(), params_.end(), isTexture) ||
-                            (attributes_ && std::any_of(attributes_->begin(), attributes_->end(),
-                                                        isTexture));
+  const bool usesTextures =
+      std::any_of(params_.begin(), params_.end(), isTexture) ||
+      (attributes_ && std::any_of(attributes_->begin(), attributes_->end(), isTexture));
   if (built_ && (!usesTextures || builtIn_.sameTextures(scope))) return built_;
   Library library(resources, scope);
   Factory& factory = resources.factory();

@@ -65,6 +65,7 @@ class Scene final : public World {
   // What the picture should say about itself: worldToCamera, worldToNDC.
   const std::map<std::string, Attribute>& attributes() const { return attributes_; }
   std::size_t shapes() const { return shapes_; }
+  std::size_t instances() const { return instances_.size(); }
 
  private:
   friend class SceneBuilder;

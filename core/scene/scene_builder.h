@@ -58,7 +58,7 @@ class SceneBuilder {
   void beginWorld(const Directive& d);
   void save(const Directive& d);
   void restore(const Directive& d, DirectiveKind begin);
-  void refuseUnsupported(const Directive& d) const;
+  bool concernsMedia(const Directive& d);
   static ColorSpace findColorSpace(const Directive& d);
   void setDefaults(Directive& d);
   std::shared_ptr<const ParamList> defaultsFor(AttributeTarget target,
@@ -113,6 +113,7 @@ class SceneBuilder {
   std::vector<Saved> stack_;
   bool inWorld_ = false, worldSeen_ = false;
   bool ended_ = false;  // something came after WorldEnd
+  bool media_ = false;  // there are some; said so
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
 
