@@ -12,7 +12,7 @@ void SceneBuilder::handle(Directive&& d) {
     throw Error(d.where, fmt::format("{} after WorldEnd: one scene makes one picture",
                                      directiveName(d.kind)));
   try {
-    if (transforms_.apply(d, factory_.dialect(), options_.report)) return;
+    if (transforms_.apply(d, factory_.dialect())) return;
     refuseUnsupported(d);
     if (handleStack(d) || handleOption(d) || handleAttribute(d) || handleWorld(d)) return;
   } catch (const Error& error) {
@@ -53,7 +53,7 @@ bool SceneBuilder::handleStack(const Directive& d) {
 }
 
 void SceneBuilder::save(const Directive& d) {
-  stack_.push_back({attributes_, transforms_.current(), d.where, d.kind});
+  stack_.push_back({attributes_, transforms_.save(), d.where, d.kind});
 }
 
 void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
@@ -63,7 +63,7 @@ void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
     throw Error(d.where, fmt::format("{} without {}: what is open is {}", directiveName(d.kind),
                                      directiveName(begin), directiveName(open)));
   if (begin != DirectiveKind::TransformBegin) attributes_ = std::move(stack_.back().attributes);
-  transforms_.setCurrent(stack_.back().transform);
+  transforms_.restore(stack_.back().transform);
   stack_.pop_back();
 }
 
@@ -111,7 +111,7 @@ void SceneBuilder::beginWorld(const Directive& d) {
     throw Error(d.where, fmt::format("WorldBegin inside {}", directiveName(stack_.back().begin)));
   inWorld_ = worldSeen_ = true;
   // Everything is built in a space whose origin is the camera, where floats are densest.
-  const DPoint3 eye = cameraFromWorld_.inverse().point(DPoint3(0));
+  const DPoint3 eye = cameraFromWorld_.start.inverse().point(DPoint3(0));
   const Transform renderFromWorld = Transform::translate(-eye);
   transforms_.name("camera", cameraFromWorld_.inverse());
   transforms_.name("world", Transform());
@@ -161,13 +161,13 @@ bool SceneBuilder::handleAttribute(Directive& d) {
         throw Error(
             d.wordsWhere.at(1),
             fmt::format("a texture is \"float\", \"color\" or \"spectrum\", not \"{}\"", type));
-      attributes_.textures = std::make_shared<TextureScope>(
-          attributes_.textures, d.words.at(0), isSpectrum,
-          TextureScope::Definition{d.words.at(2),
-                                   std::move(d.params),
-                                   d.where,
-                                   {transforms_.current(), transforms_.base()},
-                                   attributes_.textures});
+      attributes_.textures =
+          std::make_shared<TextureScope>(attributes_.textures, d.words.at(0), isSpectrum,
+                                         TextureScope::Definition{d.words.at(2),
+                                                                  std::move(d.params),
+                                                                  d.where,
+                                                                  {startOf(d), transforms_.base()},
+                                                                  attributes_.textures});
       return true;
     }
     default:
@@ -196,13 +196,11 @@ bool SceneBuilder::handleWorld(Directive& d) {
       return true;
     case DirectiveKind::Shape: {
       // An object's shapes live in a space of their own, which each instance places anew.
-      const pbrt::Transform toGroup = openObject_
-                                          ? transforms_.base().inverse() * transforms_.current()
-                                          : transforms_.current();
       if (openObject_)
-        openObject_->shapes.push_back({std::move(d), attributes_, toGroup});
+        openObject_->pending.push_back(
+            {std::move(d), attributes_, transforms_.base().inverse() * transforms_.current()});
       else
-        addShape(d, attributes_, toGroup, scene_->root_);
+        addShape(d, attributes_, transforms_.current(), shapes_);
       return true;
     }
     case ObjectBegin:

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/scene/moving_camera.h"
 #include "core/scene/scene_builder.h"
 
 namespace pbrt {
@@ -63,7 +64,7 @@ void SceneBuilder::makeCameraAndFilm() {
        film.choices("aov", aovNames(), "what to store beside the picture"))
     settings.aovs |= *aovByName(name);
   settings.aovs |= options_.aovs;
-  settings.origin = cameraFromWorld_.inverse().point(DPoint3(0));
+  settings.origin = cameraFromWorld_.start.inverse().point(DPoint3(0));
   film.flag("premultiplyalpha", true, "of pbrt-v1; pictures here always are premultiplied");
   film.integer("writefrequency", -1, -1, std::numeric_limits<int>::max(),
                "of pbrt-v1; without effect");
@@ -86,13 +87,20 @@ void SceneBuilder::makeCameraAndFilm() {
         scene_->makeSampler(options_.seed, std::max(1, scene_->sampler_->samplesPerPixel() / 4));
 
   const Directive& camera = option(camera_, DirectiveKind::Camera, defaults_.camera);
-  const Transform renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
+  const TransformPair renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
   scene_->ownCamera_ = factory_.make<Camera>(camera.words.at(0), camera.params, camera.where,
-                                             {renderFromCamera, resolution});
+                                             {renderFromCamera.start, resolution});
+  if (renderFromCamera.moves()) try {
+      scene_->moves_ = true;
+      scene_->ownCamera_ = std::make_unique<MovingCamera>(
+          std::move(scene_->ownCamera_), AnimatedTransform(renderFromCamera), transforms_.times());
+    } catch (const Error& error) {
+      throw error.at(camera.where);
+    }
   scene_->camera_ = scene_->ownCamera_.get();
-  scene_->attributes_["worldToCamera"] = cameraFromWorld_.matrix();
+  scene_->attributes_["worldToCamera"] = cameraFromWorld_.start.matrix();
   if (const auto screen = scene_->camera_->screenFromCamera())
-    scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.matrix();
+    scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.start.matrix();
 
   if (integrator_)
     translateParameters(factory_.dialect(), PluginKind::integrator, integrator_->words.at(0),
@@ -116,9 +124,18 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   makeCameraAndFilm();
 
   Scene& scene = *scene_;
+  for (const MovingGroup& moving : shapes_.moving) try {
+      moving.group->accel.build();
+      addInstance(*moving.group, {}, moving.toOuter);
+    } catch (const Error& error) {
+      throw error.at(moving.where);
+    }
   for (const Instance& instance : scene.instances_)
-    scene.root_.accel.add(instance.group->accel, instance.toRender);
-  scene.root_.accel.build();
+    if (instance.motion)
+      scene.root_.accel.add(instance.group->accel, *instance.motion);
+    else
+      scene.root_.accel.add(instance.group->accel, instance.toRender);
+  scene.root_.accel.build(transforms_.times());
   scene.bounds_ = scene.root_.accel.bounds();
   const auto addLight = [&](Light& light) {
     light.prepare(scene.bounds_);

@@ -21,6 +21,7 @@ class SceneBuilder {
     attributes_.namedMaterials = std::make_shared<NamedMaterials>();
     attributes_.material =
         std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, Location{});
+    shapes_.resting = &scene_->root_;
   }
 
   void handle(Directive&& d);
@@ -31,15 +32,26 @@ class SceneBuilder {
   struct PendingShape {
     Directive directive;
     Attributes attributes;
-    Transform toGroup;
+    TransformPair toGroup;
+  };
+  // Shapes that move as one, in a space of their own.
+  struct MovingGroup {
+    Group* group;
+    AnimatedTransform toOuter;  // to the space of the scene or of the object
+    Location where;             // the first shape
+  };
+  // Shapes that share a space: the scene's or an object's.
+  struct Shapes {
+    Group* resting = nullptr;
+    std::vector<MovingGroup> moving;
   };
   struct Object {
-    std::vector<PendingShape> shapes;
-    const Group* built = nullptr;  // since the first instance
+    std::vector<PendingShape> pending;
+    Shapes shapes;  // since the first instance
   };
   struct Saved {
     Attributes attributes;
-    Transform transform;
+    TransformState::Current transform;
     Location where;
     DirectiveKind begin;  // AttributeBegin, TransformBegin or ObjectBegin
   };
@@ -53,11 +65,17 @@ class SceneBuilder {
   void restore(const Directive& d, DirectiveKind begin);
   void refuseUnsupported(const Directive& d) const;
 
+  void addShape(const Directive& d, const Attributes& attributes, TransformPair place,
+                Shapes& shapes);
   void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
                 Group& group);
+  Group& addGroup();
   void addAreaLight(const Directive& light, const Directive& shape, const Transform& toRender,
                     Geometry& g);
   void addInstance(const Directive& d);
+  void addInstance(const Group& group, const AnimatedTransform& outer,
+                   const AnimatedTransform& inner);
+  const Transform& startOf(const Directive& d) const;
   void addLight(const Directive& d);
   void makeCameraAndFilm();
   Bounds2i cropBounds(Params& film, Point2i resolution) const;
@@ -75,9 +93,10 @@ class SceneBuilder {
   bool inWorld_ = false, worldSeen_ = false;
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
+  Shapes shapes_;  // of the scene itself
 
   std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
-  Transform cameraFromWorld_;  // as of the Camera statement
+  TransformPair cameraFromWorld_;  // as of the Camera statement
 };
 
 }  // namespace pbrt
