@@ -11,7 +11,7 @@ namespace pbrt {
 struct CameraSample {
   Point2 film{};   // in pixels, (0, 0) is the upper left corner of the picture
   Point2 lens{};   // in [0, 1)^2
-  float time = 0;  // in [0, 1)
+  float time = 0;  // in [0, 1): how far through the shutter's time
 };
 
 struct CameraRay {
@@ -22,7 +22,9 @@ struct CameraRay {
 class Camera {
  public:
   struct Setup {
-    Transform toRender;    // camera space (looks along +z, +y up) to render space
+    // Camera space (looks along +z, +y up) to render space; of a camera that moves, at the start
+    // of its motion: the scene moves its rays.
+    Transform toRender;
     Point2i resolution{};  // of the whole picture, before cropping
   };
 

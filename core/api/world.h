@@ -53,6 +53,8 @@ class World {
   const Bounds3& bounds() const { return bounds_; }
   // Whether any texture filters, so that rays should carry differentials.
   bool filters() const { return filters_; }
+  // Whether anything moves while the shutter is open, so that rays should have a time.
+  bool moves() const { return moves_; }
 
  protected:
   std::vector<const Light*> lights_;
@@ -60,6 +62,7 @@ class World {
   const Camera* camera_ = nullptr;
   Bounds3 bounds_;
   bool filters_ = false;
+  bool moves_ = false;
 };
 
 }  // namespace pbrt

@@ -87,14 +87,6 @@ void check(RTCDevice d, std::string_view doing) {
                   : fmt::format("Embree failed (error {}) at {}", static_cast<int>(error), doing));
 }
 
-// The order of a Transform's columns is Embree's.
-void setTransform(RTCGeometry geometry, const Transform& t) {
-  std::array<float, 12> m{};
-  for (int c = 0; c < 4; ++c)
-    for (int r = 0; r < 3; ++r) m[3 * c + r] = static_cast<float>(t.matrix()[c][r]);
-  rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, m.data());
-}
-
 constexpr float kReach = Accel::kReach;
 
 // Embree may abort at rays that reach farther (or are no numbers); they meet nothing.
@@ -108,26 +100,27 @@ const Ray& traceable(const Ray& r, float reach) {
 float reachOf(const Transform& toScene) {
   const Transform toInstance = toScene.inverse();
   const double shift = glm::length(DVec3(toInstance.matrix()[3]));
-  return static_cast<float>((kReach - shift) / std::max(1.0, stretch(toInstance)));
+  const double reach = (kReach - shift) / std::max(1.0, stretch(toInstance));
+  return reach > 0 ? static_cast<float>(reach) : 0;  // 0, too, if the map is singular
 }
 
-RTCRay toEmbree(const Ray& ray, float reach) {
+RTCRay toEmbree(const Ray& ray, float reach, float time) {
   const Ray& r = traceable(ray, reach);
   RTCRay e;
   e.org_x = r.o.x, e.org_y = r.o.y, e.org_z = r.o.z;
   e.dir_x = r.d.x, e.dir_y = r.d.y, e.dir_z = r.d.z;
   e.tnear = r.tMin, e.tfar = r.tMax;
-  e.time = 0, e.mask = ~0U, e.id = 0, e.flags = 0;
+  e.time = time, e.mask = ~0U, e.id = 0, e.flags = 0;
   return e;
 }
 
 template <class Ray16>
-void setLane(Ray16& e, int i, const Ray& ray, float reach) {
+void setLane(Ray16& e, int i, const Ray& ray, float reach, float time) {
   const Ray& r = traceable(ray, reach);
   e.org_x[i] = r.o.x, e.org_y[i] = r.o.y, e.org_z[i] = r.o.z;
   e.dir_x[i] = r.d.x, e.dir_y[i] = r.d.y, e.dir_z[i] = r.d.z;
   e.tnear[i] = r.tMin, e.tfar[i] = r.tMax;
-  e.time[i] = 0, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
+  e.time[i] = time, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
 }
 
 // Embree leaves out, without a word, what reaches farther.
@@ -246,18 +239,32 @@ void Accel::add(const Shape& shape, const Transform& toScene, const Location& wh
 }
 
 void Accel::add(const Accel& instance, const Transform& toScene) {
+  const Motion::Key key(toScene.matrix());
+  addInstance(instance, {&key, 1});
+}
+
+void Accel::add(const Accel& instance, const Motion& motion) {
+  moves_ = true;
+  addInstance(instance, motion.keys());
+}
+
+void Accel::addInstance(const Accel& instance, std::span<const Motion::Key> keys) {
   coherent_ = false;
-  reach_ = std::min(reach_, std::min(instance.reach_, reachOf(toScene)));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(g, scene(instance.scene_));
-  setTransform(g, toScene);
+  rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(keys.size()));
+  for (unsigned i = 0; i < keys.size(); ++i) {
+    reach_ = std::min({reach_, instance.reach_, reachOf(Transform(glm::dmat4(keys[i])))});
+    rtcSetGeometryTransform(g, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &keys[i]);
+  }
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(scene(scene_), g, count_++);
   rtcReleaseGeometry(g);
   check(device(device_), "an object instance");
 }
 
-void Accel::build() {
+void Accel::build(const MotionTimes& times) {
+  times_ = times;
   rtcCommitScene(scene(scene_));
   check(device(device_), "building the ray tree");
   for (const auto& user : users_)
@@ -275,7 +282,7 @@ Bounds3 Accel::bounds() const {
 Hit Accel::intersect(const Ray& ray) const {
   ++rayCount;
   RTCRayHit e;
-  e.ray = toEmbree(ray, reach_);
+  e.ray = toEmbree(ray, reach_, fraction(ray));
   e.hit.geomID = e.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   Query().intersect(scene(scene_), e);
   if (e.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
@@ -284,7 +291,7 @@ Hit Accel::intersect(const Ray& ray) const {
 
 bool Accel::occluded(const Ray& ray) const {
   ++rayCount;
-  RTCRay e = toEmbree(ray, reach_);
+  RTCRay e = toEmbree(ray, reach_, fraction(ray));
   Query().occluded(scene(scene_), e);
   return e.tfar < 0;
 }
@@ -296,7 +303,7 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
   alignas(64) RTCRayHit16 e;
   for (int i = 0; i < World::kBatch; ++i) {
     valid[i] = i < n ? -1 : 0;
-    if (i < n) setLane(e.ray, i, *rays[i], reach_);
+    if (i < n) setLane(e.ray, i, *rays[i], reach_, fraction(*rays[i]));
     e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
   Query(coherent_).intersect(valid.data(), scene(scene_), e);
@@ -315,7 +322,7 @@ std::uint32_t Accel::occludedPacket(std::span<const Ray> rays) const {
   const int n = static_cast<int>(rays.size());
   for (int i = 0; i < n; ++i) {
     valid[i] = -1;
-    setLane(e, i, rays[i], reach_);
+    setLane(e, i, rays[i], reach_, fraction(rays[i]));
   }
   Query(coherent_).occluded(valid.data(), scene(scene_), e);
   std::uint32_t mask = 0;

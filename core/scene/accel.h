@@ -9,6 +9,7 @@
 #include "core/api/shape.h"
 #include "core/api/world.h"
 #include "core/base/error.h"
+#include "core/scene/motion.h"
 
 namespace pbrt {
 
@@ -45,7 +46,9 @@ class Accel {
   // `where` is what build() complains about if the shape reaches too far.
   void add(const Shape& shape, const Transform& toScene, const Location& where = {});
   void add(const Accel& instance, const Transform& toScene);
-  void build();
+  void add(const Accel& instance, const Motion& motion);
+  // `times`: when motions start and end, as the rays' time has it.
+  void build(const MotionTimes& times = {});
 
   Bounds3 bounds() const;  // empty if there is nothing
 
@@ -54,12 +57,16 @@ class Accel {
   void intersect(std::span<const Ray* const> rays, std::span<Hit> hits) const;
   std::uint32_t occluded(std::span<const Ray> rays) const;
 
+  // How far all motions have come at the time of a ray; 0 if nothing moves.
+  float fraction(const Ray& ray) const { return moves_ ? times_.fraction(ray.time) : 0; }
+
   // How many rays this thread traced since it asked last.
   static std::uint64_t takeRayCount();
 
  private:
   struct UserGeometry;
 
+  void addInstance(const Accel& instance, std::span<const Motion::Key> keys);
   template <class Packet>
   std::uint32_t occludedPacket(std::span<const Ray> rays) const;
 
@@ -70,6 +77,8 @@ class Accel {
   // Whether packets may be marked as coherent, which is faster. Embree 3 then never returns for
   // some packets that look all ways through instances.
   bool coherent_ = true;
+  bool moves_ = false;  // whether any instance does
+  MotionTimes times_;
   std::vector<std::unique_ptr<UserGeometry>> users_;
 };
 

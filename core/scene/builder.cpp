@@ -75,7 +75,7 @@ void SceneBuilder::handle(Directive&& d) {
 }
 
 void SceneBuilder::carryOut(Directive&& d) {
-  if (transforms_.apply(d, factory_.dialect(), options_.report)) return;
+  if (transforms_.apply(d, factory_.dialect())) return;
   if (concernsMedia(d)) return;
   toThisGeneration(d);
   if (handleStack(d) || handleOption(d) || handleAttribute(d)) return;
@@ -128,7 +128,7 @@ void SceneBuilder::save(const Directive& d) {
   constexpr std::size_t kDeepest = 1000000;
   if (stack_.size() >= kDeepest)
     throw Error(d.where, fmt::format("blocks are nested more than {} deep", kDeepest));
-  stack_.push_back({attributes_, transforms_.current(), colorSpace_, d.where, d.kind});
+  stack_.push_back({attributes_, transforms_.save(), colorSpace_, d.where, d.kind});
 }
 
 void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
@@ -141,7 +141,7 @@ void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
     attributes_ = std::move(stack_.back().attributes);
     colorSpace_ = stack_.back().colorSpace;
   }
-  transforms_.setCurrent(stack_.back().transform);
+  transforms_.restore(stack_.back().transform);
   stack_.pop_back();
 }
 
@@ -210,7 +210,7 @@ void SceneBuilder::beginWorld(const Directive& d) {
     throw Error(d.where, fmt::format("WorldBegin inside {}", directiveName(stack_.back().begin)));
   inWorld_ = worldSeen_ = true;
   // Everything is built in a space whose origin is the camera, where floats are densest.
-  const DPoint3 eye = cameraFromWorld_.inverse().point(DPoint3(0));
+  const DPoint3 eye = cameraFromWorld_.start.inverse().point(DPoint3(0));
   const Transform renderFromWorld = Transform::translate(-eye);
   transforms_.name("camera", cameraFromWorld_.inverse());
   transforms_.name("world", Transform());
@@ -234,13 +234,11 @@ void SceneBuilder::handleWorld(Directive& d) {
       return addLight(d);
     case DirectiveKind::Shape: {
       // An object's shapes live in a space of their own, which each instance places anew.
-      const pbrt::Transform toGroup = openObject_
-                                          ? transforms_.base().inverse() * transforms_.current()
-                                          : transforms_.current();
       if (openObject_)
-        openObject_->shapes.push_back({std::move(d), attributes_, toGroup});
+        openObject_->pending.push_back(
+            {std::move(d), attributes_, transforms_.base().inverse() * transforms_.current()});
       else
-        addShape(d, attributes_, toGroup, scene_->root_);
+        addShape(d, attributes_, transforms_.current(), shapes_);
       return;
     }
     case ObjectBegin:

@@ -100,7 +100,7 @@ void SceneBuilder::defineTexture(Directive& d) {
                                            std::move(d.params),
                                            defaultsFor(AttributeTarget::texture, d.words[2]),
                                            d.where,
-                                           {transforms_.current(), transforms_.base()},
+                                           {startOf(d), transforms_.base()},
                                            attributes_.scope,
                                            nullptr});
   };

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/scene/moving_camera.h"
 #include "core/scene/scene_builder.h"
 
 namespace pbrt {
@@ -84,7 +85,7 @@ Film::Settings SceneBuilder::filmSettings(Params& film) const {
        film.choices("aov", aovNames(), "what to store beside the picture"))
     settings.aovs |= *aovByName(name);
   settings.aovs |= options_.aovs;
-  settings.origin = cameraFromWorld_.inverse().point(DPoint3(0));
+  settings.origin = cameraFromWorld_.start.inverse().point(DPoint3(0));
   film.flag("premultiplyalpha", true, "of pbrt-v1; pictures here always are premultiplied");
   film.integer("writefrequency", -1, -1, std::numeric_limits<int>::max(),
                "of pbrt-v1; without effect");
@@ -147,13 +148,20 @@ void SceneBuilder::makeSampler(Point2i resolution) {
 }
 
 void SceneBuilder::makeCamera(Point2i resolution) {
-  const Transform renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
+  const TransformPair renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
   scene_->ownCamera_ = makeOption<Camera>(camera_, DirectiveKind::Camera, defaults_.camera,
-                                          {renderFromCamera, resolution});
+                                          {renderFromCamera.start, resolution});
+  if (renderFromCamera.moves()) try {
+      scene_->moves_ = true;
+      scene_->ownCamera_ = std::make_unique<MovingCamera>(
+          std::move(scene_->ownCamera_), AnimatedTransform(renderFromCamera), transforms_.times());
+    } catch (const Error& error) {
+      throw error.at(camera_ ? camera_->where : Location());
+    }
   scene_->camera_ = scene_->ownCamera_.get();
-  scene_->attributes_["worldToCamera"] = cameraFromWorld_.matrix();
+  scene_->attributes_["worldToCamera"] = cameraFromWorld_.start.matrix();
   if (const auto screen = scene_->camera_->screenFromCamera())
-    scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.matrix();
+    scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.start.matrix();
 }
 
 std::unique_ptr<Scene> SceneBuilder::finish() {
@@ -174,9 +182,18 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
       makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
 
   Scene& scene = *scene_;
+  for (const MovingGroup& moving : shapes_.moving) try {
+      moving.group->accel.build();
+      addInstance(*moving.group, {}, moving.toOuter);
+    } catch (const Error& error) {
+      throw error.at(moving.where);
+    }
   for (const Instance& instance : scene.instances_)
-    scene.root_.accel.add(instance.group->accel, instance.toRender);
-  scene.root_.accel.build();
+    if (instance.motion)
+      scene.root_.accel.add(instance.group->accel, *instance.motion);
+    else
+      scene.root_.accel.add(instance.group->accel, instance.toRender);
+  scene.root_.accel.build(transforms_.times());
   scene.bounds_ = scene.root_.accel.bounds();
   const auto addLight = [&](Light& light) {
     light.prepare(scene.bounds_);

@@ -9,8 +9,35 @@ namespace pbrt {
 void SceneBuilder::addLight(const Directive& d) {
   const std::string& name = d.words.at(0);
   scene_->ownLights_.push_back(
-      factory_.make<Light>(name, d.params, d.where, {transforms_.current(), nullptr}, nullptr,
+      factory_.make<Light>(name, d.params, d.where, {startOf(d), nullptr}, nullptr,
                            defaultsFor(AttributeTarget::light, name).get()));
+}
+
+const Transform& SceneBuilder::startOf(const Directive& d) const {
+  if (transforms_.current().moves())
+    factory_.report(Severity::warning, d.where,
+                    fmt::format("a {} does not move: it stays where it is at the start",
+                                directiveName(d.kind)));
+  return transforms_.current().start;
+}
+
+Group& SceneBuilder::addGroup() {
+  scene_->objects_.push_back(std::make_unique<Group>(scene_->device_));
+  return *scene_->objects_.back();
+}
+
+void SceneBuilder::addShape(const Directive& d, const Attributes& attributes, TransformPair place,
+                            Shapes& shapes) {
+  if (place.moves() && attributes.areaLight && &shapes == &shapes_) {
+    factory_.report(Severity::warning, d.where,
+                    "a shape that gives light does not move: it stays where it is at the start");
+    place = place.start;
+  }
+  if (!place.moves()) return addShape(d, attributes, place.start, *shapes.resting);
+  std::vector<MovingGroup>& moving = shapes.moving;
+  if (moving.empty() || !(moving.back().toOuter.ends() == place))
+    moving.push_back({&addGroup(), AnimatedTransform(place), d.where});
+  addShape(d, attributes, Transform(), *moving.back().group);
 }
 
 void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
@@ -95,24 +122,36 @@ void SceneBuilder::addInstance(const Directive& d) {
   if (found == objects_.end())
     throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", d.words[0],
                                                 didYouMeanKey(d.words[0], objects_)));
-  Object& object = found->second;
-  if (!object.built) {
-    auto group = std::make_unique<Group>(scene_->device_);
-    for (const PendingShape& shape : object.shapes)
+  auto& [pending, shapes] = found->second;
+  if (!shapes.resting) {
+    shapes.resting = &addGroup();
+    for (const PendingShape& shape : pending)
       factory_.attempt([&] {
         try {
-          addShape(shape.directive, shape.attributes, shape.toGroup, *group);
+          addShape(shape.directive, shape.attributes, shape.toGroup, shapes);
         } catch (const Error& error) {
           throw error.at(shape.directive.where);
         }
       });
-    object.shapes.clear();
-    group->accel.build();
-    object.built = group.get();
-    scene_->objects_.push_back(std::move(group));
+    pending.clear();
+    shapes.resting->accel.build();
+    for (const MovingGroup& moving : shapes.moving) moving.group->accel.build();
   }
-  if (object.built->geometries.empty()) return;
-  scene_->instances_.push_back({object.built, transforms_.current()});
+  const AnimatedTransform toRender(transforms_.current());
+  addInstance(*shapes.resting, toRender, {});
+  for (const MovingGroup& moving : shapes.moving)
+    addInstance(*moving.group, toRender, moving.toOuter);
+}
+
+// The ray tree has one level of instances: what moves within an object is an instance of its own,
+// under both transforms.
+void SceneBuilder::addInstance(const Group& group, const AnimatedTransform& outer,
+                               const AnimatedTransform& inner) {
+  if (group.geometries.empty()) return;
+  Instance instance{&group, outer.ends().start * inner.ends().start, {}};
+  if (outer.moves() || inner.moves()) instance.motion.emplace(outer, inner, group.accel.bounds());
+  scene_->moves_ = scene_->moves_ || instance.motion;
+  scene_->instances_.push_back(std::move(instance));
 }
 
 }  // namespace pbrt

@@ -4,37 +4,49 @@
 
 namespace pbrt {
 
-void TransformState::set(const Transform& t, const Directive& d) {
-  if (!t.invertible())
-    throw Error(d.where, fmt::format("{} gives a transform that cannot be undone (it flattens "
-                                     "space, or its numbers are too large)",
-                                     directiveName(d.kind)));
-  if (active_) current_ = t;
+template <class Change>
+void TransformState::change(const Directive& d, Change change) {
+  const auto apply = [&](Transform& t) {
+    t = change(t);
+    if (!t.invertible())
+      throw Error(d.where, fmt::format("{} gives a transform that cannot be undone (it flattens "
+                                       "space, or its numbers are too large)",
+                                       directiveName(d.kind)));
+  };
+  if (current_.startActive) apply(current_.transform.start);
+  if (current_.endActive) apply(current_.transform.end);
 }
 
 void TransformState::setBase(const Transform& base) {
-  current_ = base_ = base;
+  current_ = {base, true, true};
+  base_ = base;
   for (auto& entry : named_) entry.second = base * entry.second;
 }
 
-bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& report) {
+bool TransformState::apply(const Directive& d, Dialect dialect) {
   using enum DirectiveKind;
   const auto& x = d.numbers;
   const DVec3 first(x[0], x[1], x[2]);
+  const auto append = [&](const pbrt::Transform& t) {
+    change(d, [&](const pbrt::Transform& current) { return current * t; });
+  };
+  const auto replace = [&](const pbrt::Transform& t) {
+    change(d, [&](const pbrt::Transform&) { return t; });
+  };
   switch (d.kind) {
     case Identity:
-      set(base_, d);
+      replace(base_);
       return true;
     case Translate:
-      set(current_ * Transform::translate(first), d);
+      append(Transform::translate(first));
       return true;
     case Scale:
-      set(current_ * Transform::scale(first), d);
+      append(Transform::scale(first));
       return true;
     case Rotate: {
       const DVec3 axis(x[1], x[2], x[3]);
       if (axis == DVec3(0)) throw Error(d.where, "Rotate needs an axis other than 0 0 0");
-      set(current_ * Transform::rotate(x[0], axis), d);
+      append(Transform::rotate(x[0], axis));
       return true;
     }
     case LookAt: {
@@ -45,7 +57,7 @@ bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& 
       const DVec3 side = glm::cross(up, look - first);
       if (!(lengthSquared(side) > 1e-24 * lengthSquared(up) * lengthSquared(look - first)))
         throw Error(d.where, "LookAt: the up vector lies along the viewing direction (or is zero)");
-      set(current_ * Transform::lookAt(first, look, up, dialect == Dialect::v1), d);
+      append(Transform::lookAt(first, look, up, dialect == Dialect::v1));
       return true;
     }
     case DirectiveKind::Transform:
@@ -56,30 +68,32 @@ bool TransformState::apply(const Directive& d, Dialect dialect, const Reporter& 
         throw Error(d.where, fmt::format("{}: every fourth number must be 0, the last one 1 "
                                          "(projections belong to the camera)",
                                          directiveName(d.kind)));
-      set((d.kind == ConcatTransform ? current_ : base_) * pbrt::Transform(m), d);
+      if (d.kind == ConcatTransform)
+        append(pbrt::Transform(m));
+      else
+        replace(base_ * pbrt::Transform(m));
       return true;
     }
     case CoordinateSystem:
-      named_[d.words.at(0)] = current_;
+      named_[d.words.at(0)] = current_.transform;
       return true;
     case CoordSysTransform: {
       const auto found = named_.find(d.words.at(0));
       if (found == named_.end())
         throw Error(d.wordsWhere.at(0), fmt::format("there is no coordinate system \"{}\"{}",
                                                     d.words[0], didYouMeanKey(d.words[0], named_)));
-      set(found->second, d);
+      current_.transform = found->second;  // both, whatever is active
       return true;
     }
     case ActiveTransform:
-      active_ = d.words.at(0) != "EndTime";
-      if (d.words[0] != "All" && !warned_ && report) {
-        warned_ = true;
-        report(diagnose(Severity::warning, d.where,
-                        "motion blur is not there yet: the start of the shutter is shown"));
-      }
+      current_.startActive = d.words.at(0) != "EndTime";
+      current_.endActive = d.words[0] != "StartTime";
       return true;
     case TransformTimes:
-      return true;  // says when, and nothing moves yet
+      times_ = {static_cast<float>(x[0]), static_cast<float>(x[1])};
+      if (!(times_.start < times_.end && std::isfinite(times_.end - times_.start)))
+        throw Error(d.where, "TransformTimes: the first time must be before the second");
+      return true;
     default:
       return false;
   }

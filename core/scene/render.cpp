@@ -69,7 +69,8 @@ struct TileJob {
         sampler.start({x, y}, index);
         CameraSample& sample = worker.samples[n];
         sample.film = inPixel({x, y}, sampler.pixel2D());
-        if (lens) sample.lens = sampler.get2D();  // nothing moves yet: no time is drawn
+        if (lens) sample.lens = sampler.get2D();
+        if (world.moves()) sample.time = sampler.get1D();
         worker.cameraRays[n] = world.camera().generate(sample, world.filters());
         if (world.filters()) worker.cameraRays[n].ray.scaleDifferentials(differentialScale);
         worker.rays[n] = &worker.cameraRays[n].ray;

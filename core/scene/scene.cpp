@@ -66,16 +66,23 @@ SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) co
   const Group& group = instance ? *instance->group : root_;
   const Geometry& g = *group.geometries[hit.geometry];
 
+  std::optional<Transform> moved;
+  const float fraction = root_.accel.fraction(ray);
+  if (instance && instance->motion) moved = instance->motion->at(fraction);
+  const Transform* toRender = moved ? &*moved : instance ? &instance->toRender : nullptr;
+
   SurfaceInteraction s;
   if (g.mesh) {
     s = meshSurface(*g.mesh, hit, g.flip, g.reverse);
-    if (instance) transformInteraction(s, instance->toRender);
+    if (toRender) transformInteraction(s, *toRender);
   } else {
     const ShapeHit shapeHit{hit.t, hit.u, hit.v, hit.primitive};
-    s = placedSurface(*g.shape, instance ? instance->toRender * g.toGroup : g.toGroup, g.reverse,
-                      ray, shapeHit);
+    s = placedSurface(*g.shape, toRender ? *toRender * g.toGroup : g.toGroup, g.reverse, ray,
+                      shapeHit);
   }
-  if (instance) s.error += instanceError(instance->toRender, s.p);
+  if (toRender)
+    s.error +=
+        moved ? instance->motion->error(fraction, *moved, s.p) : instanceError(*toRender, s.p);
   s.wo = -glm::normalize(ray.d);
   s.time = ray.time;
   s.material = g.material.get();

@@ -35,7 +35,8 @@ struct Group {
 
 struct Instance {
   const Group* group;
-  Transform toRender;
+  Transform toRender;            // where it rests
+  std::optional<Motion> motion;  // if it moves: goes before toRender
 };
 
 class Scene final : public World {

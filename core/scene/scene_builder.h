@@ -25,6 +25,7 @@ class SceneBuilder {
         scene_(std::make_unique<Scene>(options.threads)) {
     attributes_.material =
         std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, nullptr, Location{});
+    shapes_.resting = &scene_->root_;
   }
 
   void handle(Directive&& d);
@@ -35,15 +36,26 @@ class SceneBuilder {
   struct PendingShape {
     Directive directive;
     Attributes attributes;
-    Transform toGroup;
+    TransformPair toGroup;
+  };
+  // Shapes that move as one, in a space of their own.
+  struct MovingGroup {
+    Group* group;
+    AnimatedTransform toOuter;  // to the space of the scene or of the object
+    Location where;             // the first shape
+  };
+  // Shapes that share a space: the scene's or an object's.
+  struct Shapes {
+    Group* resting = nullptr;
+    std::vector<MovingGroup> moving;
   };
   struct Object {
-    std::vector<PendingShape> shapes;
-    const Group* built = nullptr;  // since the first instance
+    std::vector<PendingShape> pending;
+    Shapes shapes;  // since the first instance
   };
   struct Saved {
     Attributes attributes;
-    Transform transform;
+    TransformState::Current transform;
     ColorSpace colorSpace;
     Location where;
     DirectiveKind begin;  // AttributeBegin, TransformBegin or ObjectBegin
@@ -67,12 +79,18 @@ class SceneBuilder {
   void nameMaterial(Directive& d);
   void defineTexture(Directive& d);
 
+  void addShape(const Directive& d, const Attributes& attributes, TransformPair place,
+                Shapes& shapes);
   void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
                 Group& group);
+  Group& addGroup();
   std::shared_ptr<const Material> materialFor(const Params& shape, const Attributes& attributes);
   void addAreaLight(const Attributes& attributes, const Directive& shape, const Transform& toRender,
                     Geometry& g);
   void addInstance(const Directive& d);
+  void addInstance(const Group& group, const AnimatedTransform& outer,
+                   const AnimatedTransform& inner);
+  const Transform& startOf(const Directive& d) const;
   void addLight(const Directive& d);
   void makeFilm();
   void makeSampler(Point2i resolution);
@@ -116,11 +134,12 @@ class SceneBuilder {
   bool media_ = false;  // there are some; said so
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
+  Shapes shapes_;  // of the scene itself
 
   std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
   std::optional<std::uint64_t> seed_;  // of Option "integer seed"
   ColorSpace colorSpace_ = ColorSpace::srgb;
-  Transform cameraFromWorld_;  // as of the Camera statement
+  TransformPair cameraFromWorld_;  // as of the Camera statement
 };
 
 }  // namespace pbrt
