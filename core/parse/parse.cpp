@@ -31,7 +31,8 @@ void Parser::parse(std::string name, std::string text, std::filesystem::path pat
 
   const IncludeHandler handler = [this](const Location& quoted) { include(quoted); };
   Scanner scanner(source);
-  SceneParser(scanner, sink_, handler).parse();
+  Statement statement(sink_);
+  SceneParser(scanner, statement, handler).parse();
 }
 
 void Parser::include(const Location& quoted) {
