@@ -27,6 +27,8 @@ constexpr std::array kTypes{
     TypeRule{"blackbody", ParamType::blackbody}, TypeRule{"spectrum", ParamType::spectrum, 2},
     TypeRule{"string", ParamType::string},       TypeRule{"texture", ParamType::texture}};
 
+constexpr Wanted kDeclaration{"the type and the name of a parameter, as in \"float fov\""};
+
 const TypeRule& findType(const Location& where) {
   const std::string_view name = textAt(where);
   const auto* found = std::ranges::find(kTypes, name, &TypeRule::name);
@@ -44,44 +46,53 @@ bool isNumber(const Location& item) {
   return (c >= '0' && c <= '9') || c == '.' || c == '-' || c == '+';
 }
 
+[[noreturn]] void fail(const Location& where, const Wanted& wanted) {
+  throw Error(where, fmt::format("expected {}{}", wanted.what, wanted.of));
+}
+
 // The words of a declaration: "float radius", with any white space.
-std::vector<Location> words(const Location& quoted) {
+struct Declaration {
+  std::array<Location, 2> words;
+  std::size_t count = 0;
+};
+
+Declaration wordsOf(const Location& quoted) {
   constexpr std::string_view kSpace = " \t\v\f";
   const std::string_view text = textAt(quoted).substr(0, quoted.length - 1);
-  std::vector<Location> found;
-  for (std::size_t at = 1; (at = text.find_first_not_of(kSpace, at)) != text.npos;) {
+  Declaration found;
+  for (std::size_t at = 1; (at = text.find_first_not_of(kSpace, at)) != text.npos; ++found.count) {
+    if (found.count == found.words.size()) fail(quoted, kDeclaration);
     const std::size_t end = std::min(text.find_first_of(kSpace, at), text.size());
-    found.push_back({quoted.source, quoted.begin + at, end - at});
+    found.words[found.count] = {quoted.source, quoted.begin + at, end - at};
     at = end;
   }
   return found;
 }
 
 // The items of a value that may not be numbers. An empty list is both.
-std::span<const Location> itemsOf(const Value& value, std::string_view wanted) {
+std::span<const Location> itemsOf(const Value& value, const Wanted& wanted) {
   if (value.numbersOnly &&
       textAt(value.where).find_first_not_of("[] \t\r\n\v\f") != std::string::npos)
-    throw Error(value.where, fmt::format("expected {}", wanted));
+    fail(value.where, wanted);
   return value.items;
 }
 
-std::vector<std::string> stringsOf(const Value& value, std::string_view wanted) {
+std::vector<std::string> stringsOf(const Value& value, const Wanted& wanted) {
   std::vector<std::string> strings;
   for (const Location& item : itemsOf(value, wanted)) {
-    if (!isString(item)) throw Error(item, fmt::format("expected {}", wanted));
+    if (!isString(item)) fail(item, wanted);
     strings.push_back(unquote(item));
   }
   return strings;
 }
 
 std::vector<int> booleansOf(const Value& value) {
-  constexpr std::string_view kWanted = "\"true\" or \"false\", as the type is bool";
+  constexpr Wanted kWanted{"\"true\" or \"false\", as the type is bool"};
   std::vector<int> booleans;
   for (const Location& item : itemsOf(value, kWanted)) {
     const std::string_view text = textAt(item);
     const bool isTrue = text == "true" || text == "\"true\"";
-    if (!isTrue && text != "false" && text != "\"false\"")
-      throw Error(item, fmt::format("expected {}", kWanted));
+    if (!isTrue && text != "false" && text != "\"false\"") fail(item, kWanted);
     booleans.push_back(isTrue ? 1 : 0);
   }
   return booleans;
@@ -125,53 +136,50 @@ std::string unquote(const Location& quoted) {
 }
 
 template <class T>
-std::vector<T> numbersOf(const Value& value, std::string_view wanted) {
-  std::vector<T> numbers;
+void readNumbers(const Value& value, const Wanted& wanted, std::vector<T>& numbers) {
   if (value.numbersOnly)
     readNumbers({value.where.source, value.where.begin + 1, value.where.length - 2}, numbers);
   for (const Location& item : value.items) {
-    if (!isNumber(item)) throw Error(item, fmt::format("expected {}", wanted));
+    if (!isNumber(item)) fail(item, wanted);
     readNumbers(item, numbers);
   }
-  return numbers;
 }
 
-template std::vector<double> numbersOf(const Value&, std::string_view);
+template void readNumbers(const Value&, const Wanted&, std::vector<double>&);
 
 namespace {
 
 // The parameter of this type and name.
 Param typed(const TypeRule& rule, const Location& name, const Location& declaration,
             const Value& value) {
-  const std::string wanted = fmt::format("numbers, as the type is {}", rule.name);
-
+  const Wanted wanted{"numbers, as the type is ", rule.name};
   Param param{rule.type, std::string(textAt(name)), declaration, value.where, {}};
   switch (rule.type) {
     case ParamType::boolean:
       param.values = booleansOf(value);
       break;
     case ParamType::integer:
-      param.values = numbersOf<int>(value, wanted);
+      readNumbers(value, wanted, param.values.emplace<std::vector<int>>());
       break;
     case ParamType::string:
-      param.values = stringsOf(value, "quoted strings, as the type is string");
+      param.values = stringsOf(value, {"quoted strings, as the type is string"});
       break;
     case ParamType::texture: {
-      auto names = stringsOf(value, "the quoted name of a texture");
+      auto names = stringsOf(value, {"the quoted name of a texture"});
       if (names.size() != 1) throw Error(value.where, "expected the name of one texture");
       param.values = std::move(names);
       break;
     }
     case ParamType::spectrum:
       if (!value.items.empty() && isString(value.items[0])) {
-        param.values = stringsOf(value, "quoted names, as the first value is one");
+        param.values = stringsOf(value, {"quoted names, as the first value is one"});
         break;
       }
       [[fallthrough]];
     default:
-      auto numbers = numbersOf<float>(value, wanted);
+      auto& numbers = param.values.emplace<std::vector<float>>();
+      readNumbers(value, wanted, numbers);
       checkCount(rule, value, numbers.size());
-      param.values = std::move(numbers);
   }
   return param;
 }
@@ -187,17 +195,16 @@ std::string_view typeOf(const Value& value) {
 }  // namespace
 
 Param makeParam(const Location& declaration, const Value& value) {
-  const std::vector<Location> parts = words(declaration);
-  if (parts.size() != 2)
-    throw Error(declaration, "expected the type and the name of a parameter, as in \"float fov\"");
-  return typed(findType(parts[0]), parts[1], declaration, value);
+  const auto [words, count] = wordsOf(declaration);
+  if (count != 2) fail(declaration, kDeclaration);
+  return typed(findType(words[0]), words[1], declaration, value);
 }
 
 Param makeOption(const Location& declaration, const Value& value) {
-  const std::vector<Location> parts = words(declaration);
-  if (parts.size() != 1) return makeParam(declaration, value);
+  const auto [words, count] = wordsOf(declaration);
+  if (count != 1) return makeParam(declaration, value);
   const auto* rule = std::ranges::find(kTypes, typeOf(value), &TypeRule::name);
-  return typed(*rule, parts[0], declaration, value);
+  return typed(*rule, words[0], declaration, value);
 }
 
 }  // namespace pbrt

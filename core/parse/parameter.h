@@ -18,9 +18,15 @@ std::string_view textAt(const Location& where);
 // The text of a quoted string, its escapes (\" \\ \' \n \t \r \b \f) resolved.
 std::string unquote(const Location& quoted);
 
-// The numbers of a value, T float, double or int. `wanted` completes the message "expected ...".
+// What a value has to be: completes the message "expected ...".
+struct Wanted {
+  std::string_view what;
+  std::string_view of = "";
+};
+
+// Appends the numbers of a value; T is float, double or int.
 template <class T>
-std::vector<T> numbersOf(const Value& value, std::string_view wanted);
+void readNumbers(const Value& value, const Wanted& wanted, std::vector<T>& numbers);
 
 // The parameter which the quoted declaration and the value give. Throws Error at the place of
 // what is wrong: the declaration, the type, one of the values, or their count.

@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdio>
-#include <cstring>
 #include <memory>
 
+#include "core/base/file.h"
 #include "core/parse/scanner.h"
 
 namespace pbrt {
@@ -15,40 +13,10 @@ namespace {
 
 constexpr std::size_t kDeepestInclude = 32;
 
-// All bytes of a file of any kind. Throws std::system_error.
-std::string read(const std::filesystem::path& path) {
-  const auto fail = [](int error) { throw std::system_error(error, std::generic_category()); };
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
-                                                             &std::fclose);
-  if (!file) fail(errno);
-  std::setbuf(file.get(), nullptr);  // straight into the text
-  std::error_code unknown;           // as for a pipe, whose text grows as it comes
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  // One byte more than there is, so that the end is seen at once.
-  std::string text(unknown ? 1 << 16 : size + 1, '\0');
-  std::size_t length = 0;
-  while ((length += std::fread(text.data() + length, 1, text.size() - length, file.get())) ==
-         text.size())
-    text.resize(2 * length);
-  if (std::ferror(file.get())) fail(errno);
-  text.resize(length);
-  return text;
-}
-
-std::string cannotRead(const std::filesystem::path& path, const std::system_error& error) {
-  return fmt::format("cannot read {}: {}", path.string(), error.code().message());
-}
-
 }  // namespace
 
 void Parser::file(const std::filesystem::path& path) {
-  std::string text;
-  try {
-    text = read(path);
-  } catch (const std::system_error& error) {
-    throw Error(cannotRead(path, error), Failure::io);
-  }
-  parse(path.string(), std::move(text), path);
+  parse(path.string(), readFile(path, FileKind::any), path);
 }
 
 void Parser::text(std::string name, std::string text, const std::filesystem::path& directory) {
@@ -63,7 +31,8 @@ void Parser::parse(std::string name, std::string text, std::filesystem::path pat
 
   const IncludeHandler handler = [this](const Location& quoted) { include(quoted); };
   Scanner scanner(source);
-  SceneParser(scanner, sink_, handler).parse();
+  Statement statement(sink_);
+  SceneParser(scanner, statement, handler).parse();
 }
 
 void Parser::include(const Location& quoted) {
@@ -81,9 +50,9 @@ void Parser::include(const Location& quoted) {
 
   std::string text;
   try {
-    text = read(path);
-  } catch (const std::system_error& error) {
-    throw Error(quoted, cannotRead(path, error));
+    text = readFile(path);
+  } catch (const Error& error) {
+    throw Error(quoted, error.diagnostics()[0].message);
   }
   parse(path.string(), std::move(text), path);
 }

@@ -14,23 +14,24 @@ class Scanner {
   Scanner(const Scanner&) = delete;
   Scanner& operator=(const Scanner&) = delete;
 
-  // Throws Error at what is no token.
-  SceneParser::symbol_type next() { return scan(flex_); }
+  // The kind of the next token, of SceneParser::token. Throws Error at what is none.
+  int next() { return scan(flex_); }
   // For flex: copies the text that comes next, up to `size` bytes; returns how many.
   std::size_t fill(char* window, std::size_t size);
 
+  Location token;                                // the last one
+  DirectiveKind kind = DirectiveKind::Identity;  // of a keyword
   // The last of their kind, for messages about what is missing after them; and the keyword of the
   // statement before.
   Location keyword, keywordBefore, bracket, string;
 
  private:
-  SceneParser::symbol_type scan(void* yyscanner);  // written by flex
-  SceneParser::symbol_type word(std::string_view text, const Location& where);
+  int scan(void* yyscanner);  // written by flex
+  int word(std::string_view text);
 
   void advance(std::size_t length);  // makes the next bytes the token
 
   const Source& source_;
-  Location token_;          // the one just matched
   std::size_t end_ = 0;     // where it ends
   std::size_t filled_ = 0;  // up to here flex was given the text
   void* flex_ = nullptr;

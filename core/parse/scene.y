@@ -5,20 +5,17 @@
 %define api.namespace {pbrt}
 %define api.parser.class {SceneParser}
 %define api.location.type {pbrt::Location}
-%define api.value.type variant
-%define api.value.automove
-%define api.token.constructor
+%define api.value.type {pbrt::DirectiveKind}
 %define parse.error custom
 %define parse.lac full
 %locations
 
 %param {Scanner& scanner}
-%parse-param {const DirectiveSink& sink}
+%parse-param {Statement& statement}
 %parse-param {const IncludeHandler& include}
 
 %code requires {
-#include "core/parse/directive.h"
-#include "core/parse/parameter.h"
+#include "core/parse/statement.h"
 
 namespace pbrt {
 class Scanner;
@@ -51,42 +48,11 @@ using IncludeHandler = std::function<void(const Location& name)>;
 namespace pbrt {
 namespace {
 
-SceneParser::symbol_type yylex(Scanner& scanner) { return scanner.next(); }
-
-Directive named(DirectiveKind kind, const Location& where, std::vector<Location> names,
-                ParamList params = {}) {
-  Directive directive{kind, where};
-  for (const Location& name : names) directive.words.push_back(unquote(name));
-  directive.wordsWhere = std::move(names);
-  directive.params = std::move(params);
-  return directive;
-}
-
-Directive numeric(DirectiveKind kind, const Location& where, const Value& value) {
-  const auto& [keyword, arguments, count] = syntax(kind);
-  const std::string wanted = fmt::format("{} numbers after {}", count, keyword);
-  const std::vector<double> numbers = numbersOf<double>(value, wanted);
-  if (numbers.size() != count)
-    throw Error(where, fmt::format("expected {}, not {}", wanted, numbers.size()));
-  Directive directive{kind, where};
-  std::ranges::copy(numbers, directive.numbers.begin());
-  return directive;
-}
-
-Directive activeTransform(DirectiveKind kind, const Location& where, const Location& time) {
-  const std::vector<std::string> times{"StartTime", "EndTime", "All"};
-  Directive directive{kind, where, {std::string(textAt(time))}, {time}};
-  if (std::ranges::find(times, directive.words[0]) == times.end())
-    throw Error(time, "expected StartTime, EndTime or All after ActiveTransform" +
-                          didYouMean(directive.words[0], times));
-  return directive;
-}
-
-Directive option(DirectiveKind kind, const Location& where, const Location& declaration,
-                 const Value& value) {
-  Directive directive{kind, where};
-  directive.params.push_back(makeOption(declaration, value));
-  return directive;
+int yylex(DirectiveKind* kind, Location* where, Scanner& scanner) {
+  const int token = scanner.next();
+  *kind = scanner.kind;
+  *where = scanner.token;
+  return token;
 }
 
 std::string didYouMeanBool(const Location& word) {
@@ -98,60 +64,52 @@ std::string didYouMeanBool(const Location& word) {
 }
 
 %token END 0
-%token <DirectiveKind> PLAIN NAMED MEDIA PLUGIN TEXTURE NUMERIC TIME OPTION
+%token PLAIN NAMED MEDIA PLUGIN TEXTURE NUMERIC TIME OPTION  /* keywords, by what follows them */
 %token INCLUDE STRING NUMBER BOOL WORD OPEN CLOSE
 %token LIST  /* numbers in brackets */
-
-%nterm <ParamList> parameters
-%nterm <Value> value numbers
-%nterm <std::vector<Location>> items bare
 
 %%
 
 scene: %empty | scene statement;
 
 statement:
-    PLAIN                                     { sink(Directive{$1, @1}); }
-  | NAMED STRING                              { sink(named($1, @1, {@2})); }
-  | MEDIA STRING                              { sink(named($1, @1, {@2})); }
-  | MEDIA STRING STRING                       { sink(named($1, @1, {@2, @3})); }
-  | PLUGIN STRING parameters                  { sink(named($1, @1, {@2}, $3)); }
-  | TEXTURE STRING STRING STRING parameters   { sink(named($1, @1, {@2, @3, @4}, $5)); }
-  | NUMERIC numbers                           { sink(numeric($1, @1, $2)); }
-  | TIME WORD                                 { sink(activeTransform($1, @1, @2)); }
-  | OPTION STRING value                       { sink(option($1, @1, @2, $3)); }
-  | INCLUDE STRING                            { include(@2); }
+    PLAIN                              { statement.end($1, @1); }
+  | NAMED name                         { statement.end($1, @1); }
+  | MEDIA name                         { statement.end($1, @1); }
+  | MEDIA name name                    { statement.end($1, @1); }
+  | PLUGIN name parameters             { statement.end($1, @1); }
+  | TEXTURE name name name parameters  { statement.end($1, @1); }
+  | NUMERIC numbers                    { statement.numbers($1, @1); statement.end($1, @1); }
+  | TIME WORD                          { statement.time(@2); statement.end($1, @1); }
+  | OPTION STRING value                { statement.option(@2); statement.end($1, @1); }
+  | INCLUDE STRING                     { include(@2); }
   ;
 
-parameters:
-    %empty                   {}
-  | parameters STRING value  { $$ = $1; $$.push_back(makeParam(@2, $3)); }
+name: STRING  { statement.name(@1); };
+
+parameters: %empty | parameters STRING value  { statement.parameter(@2); };
+
+value: bracketed | item  { statement.items(@1); };
+
+numbers: bracketed | bare  { statement.items(@1); };
+
+bracketed:
+    LIST              { statement.list(@1); }
+  | OPEN CLOSE        { statement.items(@$); }
+  | OPEN items CLOSE  { statement.items(@$); }
   ;
 
-value:
-    LIST              { $$ = Value{@$, true, {}}; }
-  | OPEN CLOSE        { $$ = Value{@$, false, {}}; }
-  | OPEN items CLOSE  { $$ = Value{@$, false, $2}; }
-  | item              { $$ = Value{@$, false, {@1}}; }
-  ;
+items: item | items item;
 
-numbers:
-    LIST              { $$ = Value{@$, true, {}}; }
-  | OPEN CLOSE        { $$ = Value{@$, false, {}}; }
-  | OPEN items CLOSE  { $$ = Value{@$, false, $2}; }
-  | bare              { $$ = Value{@$, false, $1}; }
+item:
+    NUMBER  { statement.item(@1); }
+  | STRING  { statement.item(@1); }
+  | BOOL    { statement.item(@1); }
   ;
-
-items:
-    item        { $$ = {@1}; }
-  | items item  { $$ = $1; $$.push_back(@2); }
-  ;
-
-item: NUMBER | STRING | BOOL;
 
 bare:
-    NUMBER       { $$ = {@1}; }
-  | bare NUMBER  { $$ = $1; $$.push_back(@2); }
+    NUMBER       { statement.item(@1); }
+  | bare NUMBER  { statement.item(@2); }
   ;
 
 %%
@@ -199,17 +157,17 @@ void SceneParser::report_syntax_error(const context& ctx) const {
   if (expects(symbol_kind::S_OPEN) && expects(symbol_kind::S_STRING))
     throw missing(scanner.string,
                   "the value of the parameter" + (isName ? didYouMeanBool(ctx.location()) : ""));
-  const Location& statement = nextStatement && !isEnd ? scanner.keywordBefore : scanner.keyword;
-  const std::string_view keyword = textAt(statement);
+  const Location& begin = nextStatement && !isEnd ? scanner.keywordBefore : scanner.keyword;
+  const std::string_view keyword = textAt(begin);
   if (expects(symbol_kind::S_OPEN))
-    throw missing(statement, fmt::format("numbers after {}", keyword));
+    throw missing(begin, fmt::format("numbers after {}", keyword));
   if (expects(symbol_kind::S_WORD))
-    throw missing(statement, "StartTime, EndTime or All after ActiveTransform");
+    throw missing(begin, "StartTime, EndTime or All after ActiveTransform");
   if (keyword == "Texture")
-    throw missing(statement, "three quoted names after Texture: name, type and class");
+    throw missing(begin, "three quoted names after Texture: name, type and class");
   if (keyword == "Option")
-    throw missing(statement, "a parameter after Option, as in \"integer seed\" 1");
-  throw missing(statement, fmt::format("a quoted name after {}", keyword));
+    throw missing(begin, "a parameter after Option, as in \"integer seed\" 1");
+  throw missing(begin, fmt::format("a quoted name after {}", keyword));
 }
 
 void SceneParser::error(const Location& where, const std::string& message) {

@@ -90,7 +90,7 @@ TEST_F(Include, OfAMissingFileIsAnErrorThere) {
               "cannot read " + (folder_ / "no.pbrt").string() + ": No such file or directory");
   fs::create_directories(folder_ / "sub");
   expectError(write("a.pbrt", "Include \"sub\""), "a.pbrt", 1, 9,
-              "cannot read " + (folder_ / "sub").string() + ": Is a directory");
+              "cannot read " + (folder_ / "sub").string() + ": it is not a file");
   EXPECT_EQ(errorOf(write("a.pbrt", "Include \"\"")).failure(), Failure::scene);
 }
 
@@ -141,7 +141,7 @@ TEST_F(Include, AFileThatCannotBeReadIsAnErrorOfInput) {
   const Error directory = errorOf(folder_);
   EXPECT_EQ(directory.failure(), Failure::io);
   EXPECT_EQ(directory.diagnostics()[0].message,
-            "cannot read " + folder_.string() + ": Is a directory");
+            "cannot read " + folder_.string() + ": it is not a file");
 }
 
 TEST_F(Include, AnEmptyFileIsNoError) {

@@ -79,8 +79,8 @@ TEST(Robustness, LargeRepetitions) {
         std::string(kSize, '9'), "Translate " + std::string(kSize, '9'),
         "Shape \"a\" \"float x\" [" + std::string(kSize, '9') + "]"})
     expectOrderly(text);
-  std::string brackets = "Shape \"a\" ";
-  for (std::size_t i = 0; i < kSize / 20; ++i) brackets += "\"float x\" [1 # [\n] ";
+  std::string brackets;
+  for (std::size_t i = 0; i < kSize / 30; ++i) brackets += "Shape \"a\" \"float x\" [1 # [\n] ";
   EXPECT_EQ(test::errorOf(brackets), "");
   std::string items = "Shape \"a\" \"integer x\" [ # one by one\n";
   for (std::size_t i = 0; i < kSize / 4; ++i) items += "123 ";

@@ -300,7 +300,7 @@ TEST_F(ParticleFolder, DamagedGzip) {
 
 TEST_F(ParticleFolder, NotThereOrNoFile) {
   EXPECT_THAT(failure(folder_ / "no.ply", Failure::io), HasSubstr("No such file"));
-  EXPECT_THAT(failure(folder_, Failure::io), HasSubstr("directory"));
+  EXPECT_THAT(failure(folder_, Failure::io), HasSubstr("it is not a file"));
 }
 
 }  // namespace

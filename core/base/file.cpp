@@ -1,0 +1,92 @@
+#include "core/base/file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "core/base/error.h"
+
+namespace pbrt {
+namespace {
+
+std::size_t halfOfMemory() {
+  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
+         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 2;
+}
+
+// How many bytes to expect. A gzipped file says at its end what it holds, modulo 2^32 (RFC 1952,
+// section 2.3.1); deflate packs no more than 1032 bytes into one.
+std::size_t expectedSize(int descriptor, std::size_t size, bool packed) {
+  std::array<unsigned char, 4> last{};
+  if (!packed || size < last.size()) return size;
+  if (pread(descriptor, last.data(), last.size(), static_cast<off_t>(size - last.size())) !=
+      static_cast<ssize_t>(last.size()))
+    return 0;
+  const std::size_t held =
+      last[0] | last[1] << 8 | last[2] << 16 | static_cast<std::size_t>(last[3]) << 24;
+  return std::min(held, 1032 * size);
+}
+
+}  // namespace
+
+std::string readFile(const std::filesystem::path& path, FileKind allowed, std::size_t longest) {
+  constexpr unsigned kPiece = 1 << 18;
+  const auto fail = [&](const std::string& reason) {
+    throw Error(fmt::format("cannot read {}: {}", path.string(), reason), Failure::io);
+  };
+
+  // Nobody waits at a pipe that is about to be refused.
+  const int wait = allowed == FileKind::any ? 0 : O_NONBLOCK;
+  const int descriptor = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | wait);
+  if (descriptor < 0) fail(std::strerror(errno));
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(gzdopen(descriptor, "rb"), &gzclose);
+  if (!file) {
+    close(descriptor);
+    fail("out of memory");
+  }
+  gzbuffer(file.get(), kPiece / 4);  // pieces of a plain file go past it
+
+  struct stat status {};
+  if (fstat(descriptor, &status) != 0) fail(std::strerror(errno));
+  const bool regular = S_ISREG(status.st_mode);
+  if (S_ISDIR(status.st_mode) || (allowed == FileKind::regular && !regular))
+    fail("it is not a file");
+
+  longest = std::min(longest, halfOfMemory());
+  const bool packed = gzdirect(file.get()) == 0;
+  const auto size = regular ? static_cast<std::size_t>(status.st_size) : 0;
+  std::string bytes;
+  try {
+    bytes.reserve(std::min(expectedSize(descriptor, size, packed), longest) + kPiece);
+    int got = 0;
+    do {
+      const std::size_t length = bytes.size();
+      bytes.resize(length + kPiece);
+      got = gzread(file.get(), bytes.data() + length, kPiece);
+      bytes.resize(length + static_cast<std::size_t>(std::max(got, 0)));
+      if (bytes.size() > longest)
+        fail(fmt::format("it is longer than {:.3g} GiB{}", static_cast<double>(longest) / 0x1p30,
+                         packed ? " when unpacked" : ""));
+    } while (got == static_cast<int>(kPiece));
+  } catch (const std::bad_alloc&) {
+    fail("out of memory");
+  }
+
+  int code = Z_OK;
+  gzerror(file.get(), &code);
+  if (code == Z_ERRNO) fail(std::strerror(errno));
+  if (code == Z_BUF_ERROR) fail("the packed data end too early");
+  if (code < 0) fail("the packed data are damaged");
+  return bytes;
+}
+
+}  // namespace pbrt
