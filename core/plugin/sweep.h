@@ -38,25 +38,30 @@ inline DPoint3 pointOf(const ObjectRay& ray, const ShapeHit& hit) {
 // The nearest crossing, where covers(p) holds, of a ray with the surface of second order about z
 //   value(p) = radial (x^2 + y^2) - axial z^2 + (terms of first and no order in z) = 0,
 // slope(p, d) being half of its derivative along d. Both are to be worked out so that they are
-// small near the surface but for rounding. The part that matters lies within `reach` of `centre`.
+// small near the surface but for rounding. What is covered lies within `reach` of `centre`.
 template <class Value, class Slope, class Covers>
 std::optional<ShapeHit> intersectQuadric(const ObjectRay& ray, double radial, double axial,
                                          Value value, Slope slope, const DPoint3& centre,
                                          double reach, Covers covers) {
   const DVec3& d = ray.d;
+  const double length2 = lengthSquared(d), near2 = 4 * reach * reach;
+  // value(o + t d) = a t^2 + 2 b t + c. From afar that cancels: there t begins at the point of the
+  // line that is nearest to the centre. Else it begins with the ray, and c tells on which side of
+  // the surface this is.
+  double start = glm::dot(centre - ray.o, d) / length2;
+  if (start * start * length2 <= near2) start = 0;
+  const DPoint3 o = ray.at(start);
   const double a = radial * (d.x * d.x + d.y * d.y) - axial * d.z * d.z;
-  // value(o + t d) = a t^2 + 2 b t + c. Its discriminant b^2 - a c is the same wherever on the line
-  // t begins: from afar it cancels, so it is taken where the line is nearest to the centre, or
-  // better at the parabola's vertex, where b is 0, if this lies near the shape.
-  const double length2 = lengthSquared(d);
-  DPoint3 p = ray.at(glm::dot(centre - ray.o, d) / length2);
-  if (const double s = -slope(p, d) / a; s * s * length2 <= reach * reach) p += s * d;
+  const double b = slope(o, d), c = value(o), vertex = -b / a;
+  // b^2 - a c is the same wherever t begins; where b vanishes nothing is left to cancel.
+  const bool vertexNear = vertex * vertex * length2 <= near2;
+  const DPoint3 p = vertexNear ? o + vertex * d : o;
   const double discriminant = sqr(slope(p, d)) - a * value(p);
   if (!(discriminant >= 0)) return {};
-  // The root that does not cancel, and the other one by t0 t1 = c / a, which tells on which side of
-  // the surface the ray begins. As a vanishes the first goes to infinity.
-  const double b = slope(ray.o, d), q = -b - std::copysign(std::sqrt(discriminant), b);
-  const double t0 = q / a, t1 = value(ray.o) / q;
+  // The root that does not cancel, and the other one by t0 t1 = c / a. As a vanishes the first goes
+  // to infinity.
+  const double q = -b - std::copysign(std::sqrt(discriminant), b);
+  const double t0 = start + q / a, t1 = start + c / q;
   for (const double t : {std::min(t0, t1), std::max(t0, t1)})
     if (t > ray.tMin && t <= ray.tMax && covers(ray.at(t))) return hitAt(t);
   return {};
