@@ -2,6 +2,7 @@
 
 #include "core/base/warp.h"
 #include "core/plugin/plugin.h"
+#include "core/plugin/sweep.h"
 
 namespace pbrt {
 
@@ -10,11 +11,9 @@ class Disk final : public Shape, public AreaSampler {
   explicit Disk(Params& p)
       : z_(p.number("height", 0, "where it crosses the z axis", "scene units")),
         radius_(p.positive("radius", 1, "radius", "scene units")),
-        inner_(p.nonNegative("innerradius", 0, "radius of the hole", "scene units")) {
-    const float phiMax = p.inRange("phimax", 360, 0.01F, 360, "sweep about z", "degrees");
+        inner_(p.nonNegative("innerradius", 0, "radius of the hole", "scene units")),
+        sweep_(p) {
     if (!(inner_ < radius_)) p.fail("innerradius", "must be below the radius");
-    phiMax_ = glm::radians(double{phiMax});
-    wholeTurn_ = phiMax == 360;
   }
 
   Bounds3 bounds(std::uint32_t) const override {
@@ -27,26 +26,28 @@ class Disk final : public Shape, public AreaSampler {
     const DPoint3 p = ray.at(t);
     const double rho2 = p.x * p.x + p.y * p.y;
     if (!(rho2 <= radius_ * radius_ && rho2 >= inner_ * inner_)) return {};
-    if (!wholeTurn_ && phi(p) > phiMax_) return {};
-    return ShapeHit{float(t), float(t - float(t))};  // u keeps what t loses
+    if (!sweep_.covers(p.x, p.y)) return {};
+    return hitAt(t);
   }
 
   SurfacePoint surface(const ObjectRay& ray, const ShapeHit& hit) const override {
-    const DPoint3 p = ray.at(double{hit.t} + hit.u);
+    const DPoint3 p = pointOf(ray, hit);
     const double rho = std::sqrt(p.x * p.x + p.y * p.y);
     const DVec3 outward = rho > 0 ? DVec3(p.x, p.y, 0) / rho : DVec3(1, 0, 0);
-    const DVec3 dpdu = phiMax_ * rho * DVec3(-outward.y, outward.x, 0);
+    const DVec3 dpdu = sweep_.angle() * rho * DVec3(-outward.y, outward.x, 0);
     const DVec3 dpdv = (inner_ - radius_) * outward;
-    const Point2 uv(phi(p) / phiMax_, (radius_ - rho) / (radius_ - inner_));
+    const Point2 uv(azimuth(p.x, p.y) / sweep_.angle(), (radius_ - rho) / (radius_ - inner_));
     return {{p.x, p.y, z_}, 0, {0, 0, 1}, Normal3(0), uv, dpdu, dpdv};
   }
 
   const AreaSampler* areaSampler() const override { return this; }
-  double area() const override { return phiMax_ / 2 * (radius_ * radius_ - inner_ * inner_); }
+  double area() const override {
+    return sweep_.angle() / 2 * (radius_ * radius_ - inner_ * inner_);
+  }
   AreaSample sample(const DPoint3& from, Point2 u) const override {
     // Rings of equal area: rho^2 is uniform.
     const double rho = std::sqrt((1 - u.x) * inner_ * inner_ + u.x * radius_ * radius_);
-    const DPoint3 p(rho * std::cos(phiMax_ * u.y), rho * std::sin(phiMax_ * u.y), z_);
+    const DPoint3 p(rho * std::cos(sweep_.angle() * u.y), rho * std::sin(sweep_.angle() * u.y), z_);
     return {p, 0, {0, 0, 1}, pdf(from, p, {0, 0, 1})};
   }
   float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const override {
@@ -57,13 +58,8 @@ class Disk final : public Shape, public AreaSampler {
   }
 
  private:
-  static double phi(const DPoint3& p) {
-    const double angle = std::atan2(p.y, p.x);
-    return angle < 0 ? angle + 2 * std::numbers::pi : angle;
-  }
-
-  double z_, radius_, inner_, phiMax_;
-  bool wholeTurn_;
+  double z_, radius_, inner_;
+  Sweep sweep_;
 };
 
 }  // namespace pbrt
