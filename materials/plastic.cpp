@@ -1,5 +1,6 @@
 #include "core/api/lobes.h"
 #include "core/plugin/plugin.h"
+#include "core/plugin/roughness_params.h"
 
 namespace pbrt {
 
@@ -9,13 +10,9 @@ class Plastic final : public Material {
       : kd_(p.spectrumTexture("Kd", Spectrum(0.25F), "diffuse reflectance")),
         ks_(p.spectrumTexture("Ks", Spectrum(0.25F), "scales the glossy reflection")),
         roughness_(p.floatTexture("roughness", 0.1F, "0 is the sharpest highlight")),
-        remap_(p.flag("remaproughness", true,
-                      "roughness is from 0 to 1, not the distribution's own alpha "
-                      "(trowbridgereitz)")),
+        map_(p),
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {
-    constexpr std::string_view kinds[] = {"trowbridgereitz", "blinn"};
-    blinn_ = p.choice("distribution", kinds, kinds[0],
-                      "of the facets' normals; blinn has the exponent 1 / roughness") == "blinn";
+    blinn_ = readBlinn(p);
   }
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
@@ -26,13 +23,13 @@ class Plastic final : public Material {
     if (blinn_) {
       // pbrt-v1 and v2 take the denser medium for the incident side, so that the facets reflect
       // totally beyond the critical angle; pictures of plastic agree with theirs only so.
-      constexpr DielectricFresnel fresnel{1 / 1.5F};
-      using Lobe = MicrofacetReflection<Blinn, DielectricFresnel>;
+      constexpr TwoSidedFresnel fresnel{1 / 1.5F};
+      using Lobe = MicrofacetReflection<Blinn, TwoSidedFresnel>;
       bsdf.add(place<Lobe>(scratch, ks, Blinn(roughness), fresnel));
     } else {
-      constexpr DielectricFresnel fresnel{1.5F};
-      using Lobe = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
-      const float alpha = remap_ ? TrowbridgeReitz::alpha(roughness) : roughness;
+      constexpr TwoSidedFresnel fresnel{1.5F};
+      using Lobe = MicrofacetReflection<TrowbridgeReitz, TwoSidedFresnel>;
+      const float alpha = map_.alpha(roughness);
       bsdf.add(place<Lobe>(scratch, ks, TrowbridgeReitz(alpha, alpha), fresnel));
     }
   }
@@ -44,7 +41,7 @@ class Plastic final : public Material {
  private:
   Textured<Spectrum> kd_, ks_;
   Textured<float> roughness_;
-  bool remap_;
+  RoughnessMap map_;
   std::optional<Textured<float>> bump_;
   bool blinn_;
 };

@@ -8,7 +8,7 @@ namespace {
 // The conductor without absorption that reflects r at normal incidence:
 // r = ((eta - 1) / (eta + 1))^2, solved for eta. Black is no exception: it still mirrors towards
 // grazing angles.
-ConductorFresnel fromReflectance(const Spectrum& r) {
+ApproximateConductorFresnel fromReflectance(const Spectrum& r) {
   const Spectrum root = glm::sqrt(glm::clamp(r, 0.F, 0.999F));
   return {(1.F + root) / (1.F - root), Spectrum(0)};
 }
@@ -25,8 +25,8 @@ class ShinyMetal final : public Material {
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
-    using Gloss = MicrofacetReflection<Blinn, ConductorFresnel>;
-    using Mirror = SpecularReflection<ConductorFresnel>;
+    using Gloss = MicrofacetReflection<Blinn, ApproximateConductorFresnel>;
+    using Mirror = SpecularReflection<ApproximateConductorFresnel>;
     bsdf.add(place<Gloss>(scratch, Spectrum(1), Blinn(roughness_(at)), fromReflectance(ks_(at))));
     bsdf.add(place<Mirror>(scratch, Spectrum(1), fromReflectance(kr_(at))));
   }

@@ -67,6 +67,54 @@ class SpecularTransmission final : public Bxdf {
   float eta_;
 };
 
+// Light that goes straight on: of a pane, or where part of a surface is missing. What the Fresnel
+// term does not reflect is let through.
+template <class Fresnel>
+class StraightTransmission final : public Bxdf {
+ public:
+  StraightTransmission(const Spectrum& transmittance, const Fresnel& fresnel)
+      : Bxdf(kTransmission | kSpecular), transmittance_(transmittance), fresnel_(fresnel) {}
+  Spectrum f(const Vec3&, const Vec3&) const override { return Spectrum(0); }
+  float pdf(const Vec3&, const Vec3&) const override { return 0; }
+  std::optional<BsdfSample> sample(const Vec3& wo, Point2) const override {
+    if (absCosTheta(wo) < kMinCosine) return {};
+    return BsdfSample{(1 - fresnel_(wo.z)) * transmittance_ / absCosTheta(wo), -wo, 1};
+  }
+
+ private:
+  Spectrum transmittance_;
+  Fresnel fresnel_;
+};
+
+// What the lobe reflects, let through instead: mirrored at the surface.
+template <class Lobe>
+class Through final : public Bxdf {
+ public:
+  explicit Through(const Lobe& lobe)
+      : Bxdf(lobe.flags() ^ (kReflection | kTransmission)), lobe_(lobe) {}
+  Spectrum f(const Vec3& wo, const Vec3& wi) const override { return lobe_.f(wo, mirrored(wi)); }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return lobe_.pdf(wo, mirrored(wi)); }
+  std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
+    std::optional<BsdfSample> s = lobe_.sample(wo, u);
+    if (s) s->wi = mirrored(s->wi);
+    return s;
+  }
+
+ private:
+  static Vec3 mirrored(const Vec3& w) { return {w.x, w.y, -w.z}; }
+  Lobe lobe_;
+};
+
+// The facet normal that mirrors one direction into the other, and its cosine with them, which for
+// unit directions is |wo + wi| / 2; zero if there is none.
+inline float halfVector(const Vec3& wo, const Vec3& wi, Vec3& h) {
+  h = wo + wi;
+  const float length = std::sqrt(lengthSquared(h));
+  if (!(length > 0) || std::min(absCosTheta(wo), absCosTheta(wi)) < kMinCosine) return 0;
+  h /= length;
+  return 0.5F * length;
+}
+
 // Small mirrors (Torrance and Sparrow 1967) with normals by a distribution of
 // core/base/microfacet.h.
 template <class Distribution, class Fresnel>
@@ -101,17 +149,9 @@ class MicrofacetReflection final : public Bxdf {
   }
 
  private:
-  // The facet normal that mirrors one direction into the other, and its cosine with them, which
-  // for unit directions is |wo + wi| / 2; zero if there is none.
-  static float halfVector(const Vec3& wo, const Vec3& wi, Vec3& h) {
-    h = wo + wi;
-    const float length = std::sqrt(lengthSquared(h));
-    if (!(length > 0) || std::min(absCosTheta(wo), absCosTheta(wi)) < kMinCosine) return 0;
-    h /= length;
-    return 0.5F * length;
-  }
   Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& h, float cosH, float D) const {
-    return D * distribution_.masking(wo, wi, h, cosH) * fresnel_(cosH) * reflectance_;
+    return D * distribution_.masking(wo, wi, h, cosH) * fresnel_(std::copysign(cosH, wo.z)) *
+           reflectance_;
   }
 
   Spectrum reflectance_;

@@ -13,33 +13,46 @@
 
 namespace pbrt {
 
-// Blinn 1977: D is a power of the cosine. Masking by V-shaped grooves.
+// Blinn 1977: D is a power of the cosine. Masking by V-shaped grooves. With two roughnesses the
+// exponent goes from that of the x axis to that of the y axis with the azimuth,
+// e = ex cos^2 phi + ey sin^2 phi (Ashikhmin and Shirley 2000, equation 4).
 class Blinn {
  public:
-  // Sharper than the last exponent float cosines cannot tell from a mirror.
-  explicit Blinn(float roughness) : exponent_(roughness > 1e-4F ? 1 / roughness : 1e4F) {}
+  explicit Blinn(float roughness) : Blinn(roughness, roughness) {}
+  Blinn(float roughnessX, float roughnessY)
+      : ex_(exponent(roughnessX)), ey_(exponent(roughnessY)) {}
 
   float D(const Vec3& h) const {
-    return (exponent_ + 2) * (kInvPi / 2) * std::pow(absCosTheta(h), exponent_);
+    return std::sqrt((ex_ + 2) * (ey_ + 2)) * (kInvPi / 2) * std::pow(absCosTheta(h), exponent(h));
   }
   float masking(const Vec3& wo, const Vec3& wi, const Vec3& h, float cosH) const {
     const float o = absCosTheta(wo), i = absCosTheta(wi);
     const float G = std::min(1.F, 2 * absCosTheta(h) * std::min(o, i) / cosH);
     return G / (4 * o * i);
   }
-  // Density proportional to a power of the cosine: cdf^-1(u) = u^(1 / (exponent + 1)).
+  // Density sqrt((ex + 1) (ey + 1)) / (2 pi) cos^e. Its azimuths are those of an ellipse, which has
+  // uniform ones when stretched to a circle; then cdf^-1(u) = u^(1 / (e + 1)).
   Vec3 sample(const Vec3& /*wo*/, Point2 u) const {
-    const float cosTheta = std::pow(u.x, 1 / (exponent_ + 1));
+    const float circle = 2 * kPi * u.y;
+    Vec3 h(std::sqrt(ey_ + 1) * std::cos(circle), std::sqrt(ex_ + 1) * std::sin(circle), 0);
+    h /= std::sqrt(lengthSquared(h));
+    const float cosTheta = std::pow(u.x, 1 / (exponent(h) + 1));
     const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
-    const float phi = 2 * kPi * u.y;
-    return {sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta};
+    return {sinTheta * h.x, sinTheta * h.y, cosTheta};
   }
   float reflectedPdf(const Vec3& /*wo*/, float cosH, float D) const {
-    return D * (exponent_ + 1) / (exponent_ + 2) / (4 * cosH);
+    return D * std::sqrt((ex_ + 1) * (ey_ + 1) / ((ex_ + 2) * (ey_ + 2))) / (4 * cosH);
   }
 
  private:
-  float exponent_;
+  // Sharper than the last exponent float cosines cannot tell from a mirror.
+  static float exponent(float roughness) { return roughness > 1e-4F ? 1 / roughness : 1e4F; }
+  float exponent(const Vec3& h) const {
+    const float x2 = sqr(h.x), y2 = sqr(h.y);
+    return x2 + y2 > 0 ? (ex_ * x2 + ey_ * y2) / (x2 + y2) : ex_;
+  }
+
+  float ex_, ey_;
 };
 
 // Trowbridge and Reitz 1975 (GGX: Walter et al. 2007): slopes of an ellipsoid with the widths
@@ -49,8 +62,12 @@ class Blinn {
 // s(w) = sqrt(cos^2 + alphaX^2 w.x^2 + alphaY^2 w.y^2): the cosines cancel against the model's.
 class TrowbridgeReitz {
  public:
+  // Narrower ones cannot be told from a mirror, wider ones not from each other.
+  static constexpr float kMin = 1e-3F, kMax = 1e3F;
+
   TrowbridgeReitz(float alphaX, float alphaY)
-      : alphaX_(std::max(1e-3F, alphaX)), alphaY_(std::max(1e-3F, alphaY)) {}
+      : alphaX_(std::min(kMax, std::max(kMin, alphaX))),
+        alphaY_(std::min(kMax, std::max(kMin, alphaY))) {}
   // pbrt-v3's map from its roughness in [0, 1] to alpha: a polynomial in the logarithm.
   static float alpha(float roughness) {
     const float x = std::log(std::max(1e-3F, roughness));

@@ -10,29 +10,55 @@ namespace pbrt::test {
 namespace {
 
 std::vector<ParamList> parameterSets() {
+  const Param alpha = flag("remaproughness", false), blinn = text("distribution", "blinn");
   return {{},
           {number("sigma", 20)},
           {number("sigma", 90)},
+          {number("roughness", 0)},
           {number("roughness", 1e-6F)},
           {number("roughness", 0.2F)},
           {number("roughness", 1)},
-          {number("roughness", 0.3F), flag("remaproughness", false)},
-          {number("roughness", 1e-6F), flag("remaproughness", false)},
-          {number("roughness", 1e-6F), text("distribution", "blinn")},
-          {number("roughness", 0.1F), text("distribution", "blinn")},
-          {number("roughness", 1), text("distribution", "blinn")},
+          {number("roughness", 0.2F), text("remapping", "v4")},
+          {number("roughness", 0.3F), alpha},
+          {number("roughness", 1), alpha},
+          {number("roughness", 1e-6F), alpha},
+          {number("roughness", 1e30F), alpha},
+          {number("uroughness", 0.15F), number("vroughness", 0.6F), alpha},
+          {number("uroughness", 0.15F), number("vroughness", 0), alpha},
+          {number("uroughness", 0.3F), number("vroughness", 0.3F), alpha, number("eta", 2.4F)},
+          {number("uroughness", 0.3F), number("vroughness", 0.3F), alpha, number("index", 0.6F)},
+          {number("uroughness", 0.3F), number("vroughness", 0.3F), alpha, number("index", 1.0001F)},
+          {number("uroughness", 0.3F), number("vroughness", 0.3F), alpha, number("index", 1.1F)},
+          {number("uroughness", 0.3F), number("vroughness", 0.1F), blinn},
+          {number("roughness", 1e-6F), blinn},
+          {number("roughness", 0.1F), blinn},
+          {number("roughness", 1), blinn},
           {number("index", 1)},
           {number("index", 1.0000001F)},
           {number("index", 0.7F)},
           {number("index", 1000)},
+          {number("eta", 1), number("thickness", 0)},
+          {number("eta", 1.33F), number("thickness", 0), number("roughness", 0.5F)},
+          {number("interface.roughness", 0.3F), alpha},
+          {number("conductor.roughness", 0.3F), alpha},
+          {number("conductor.roughness", 0.8F), number("interface.roughness", 0.8F), alpha},
           {rgb("Kd", 0, 0, 0)},
-          {rgb("Ks", 0.1F, 0.2F, 0.3F)}};
+          {rgb("Ks", 0.1F, 0.2F, 0.3F)},
+          {rgb("Kd", 0.1F, 0.1F, 0.1F), rgb("Kr", 0.2F, 0.2F, 0.2F), rgb("Kt", 0.5F, 0.5F, 0.5F)},
+          {rgb("opacity", 0.2F, 0.5F, 1)},
+          {rgb("reflectance", 1, 1, 1)},
+          {rgb("reflectance", 1, 1, 1), number("roughness", 0.5F), alpha},
+          {rgb("reflectance", 1, 1, 1), number("interface.roughness", 0.1F),
+           number("conductor.roughness", 0.5F), alpha},
+          {rgb("reflectance", 0.2F, 0.5F, 0.7F), rgb("transmittance", 0.8F, 0.5F, 0.1F)}};
 }
 
 // Whether its highlights are wide enough for cells of a few degrees.
 bool broad(const ParamList& set) {
   for (const Param& p : set)
-    if (p.name == "roughness" && std::get<std::vector<float>>(p.values)[0] < 0.1F) return false;
+    if (p.name.ends_with("roughness") && p.type == ParamType::number &&
+        std::get<std::vector<float>>(p.values)[0] < 0.1F)
+      return false;
   return true;
 }
 

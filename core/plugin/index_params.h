@@ -1,0 +1,66 @@
+#pragma once
+// The indices of refraction that materials share.
+
+#include "core/base/fresnel.h"
+#include "core/plugin/params.h"
+
+namespace pbrt {
+
+// A dielectric's: "index", or "eta", which overrides it.
+class RefractiveIndex {
+ public:
+  explicit RefractiveIndex(Params& p) {
+    const auto eta = p.optionalFloatTexture("eta", "another name of index, which it overrides");
+    index_ = p.floatTexture("index", 1.5F,
+                            "index of refraction on the side that the normal points away from, "
+                            "over that of the other side");
+    if (eta) index_ = *eta;
+    if (!index_.texture() && !(index_({}) > 0)) p.fail(eta ? "eta" : "index", "must be above 0");
+  }
+
+  // Of a texture's odd value: 1, no boundary.
+  float operator()(const SurfaceInteraction& at) const {
+    const float index = index_(at);
+    return index > 0 ? index : 1;
+  }
+  bool filters() const { return index_.filters(); }
+
+ private:
+  Textured<float> index_;
+};
+
+// A conductor's, by its complex index or by the reflectance that it has frontally. Outside is air.
+// The names begin with `prefix`, but for "reflectance".
+class Conductor {
+ public:
+  explicit Conductor(Params& p, const std::string& prefix = "")
+      : eta_(p.spectrumTexture(prefix + "eta", kCopperEta, "index of refraction; copper's")),
+        k_(p.spectrumTexture(prefix + "k", kCopperK, "absorption coefficient; copper's")),
+        reflectance_(p.optionalSpectrumTexture(
+            "reflectance", "frontal reflectance, instead of eta and k: eta = 1 with such a k")) {
+    for (const char* name : {"eta", "k"})
+      if (reflectance_ && p.has(prefix + name))
+        p.fail(prefix + name, "cannot be given together with reflectance");
+  }
+
+  ConductorFresnel operator()(const SurfaceInteraction& at) const {
+    // Values out of any use would overflow.
+    if (!reflectance_) return {glm::clamp(eta_(at), 1e-3F, 1e6F), glm::clamp(k_(at), 0.F, 1e6F)};
+    // r = |(1 - m) / (1 + m)|^2 = k^2 / (4 + k^2) for m = 1 + i k.
+    const Spectrum r = glm::clamp((*reflectance_)(at), 0.F, 0.9999F);
+    return {Spectrum(1), 2.F * glm::sqrt(r / (1.F - r))};
+  }
+  bool filters() const {
+    return eta_.filters() || k_.filters() || (reflectance_ && reflectance_->filters());
+  }
+
+ private:
+  // From the measured spectra of pbrt's copper, weighted by the colour matching functions.
+  static inline const Spectrum kCopperEta{0.200438F, 0.924033F, 1.102212F};
+  static inline const Spectrum kCopperK{3.912949F, 2.452848F, 2.142188F};
+
+  Textured<Spectrum> eta_, k_;
+  std::optional<Textured<Spectrum>> reflectance_;
+};
+
+}  // namespace pbrt
