@@ -138,7 +138,9 @@ void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
     throw Error(d.where, fmt::format("{} without {}: what is open is {}", directiveName(d.kind),
                                      directiveName(begin), directiveName(open)));
   if (begin != DirectiveKind::TransformBegin) {
-    attributes_ = std::move(stack_.back().attributes);
+    Attributes& outer = stack_.back().attributes;
+    if (factory_.dialect() == Dialect::v4) outer.scope = attributes_.scope;  // names are global there
+    attributes_ = std::move(outer);
     colorSpace_ = stack_.back().colorSpace;
   }
   transforms_.restore(stack_.back().transform);

@@ -169,7 +169,8 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   const auto note = [&](const Location& where, const std::string& message) {
     factory_.report(Severity::warning, where, message);
   };
-  if (inWorld_) note({}, "the file ends without WorldEnd; the scene is taken to be complete");
+  if (inWorld_ && factory_.dialect() != Dialect::v4)
+    note({}, "the file ends without WorldEnd; the scene is taken to be complete");
   for (const Saved& saved : stack_)
     note(saved.where, fmt::format("{} is never closed", directiveName(saved.begin)));
   if (!camera_) note({}, "the scene has no Camera: it is seen from 0 0 0 along +z");

@@ -7,43 +7,81 @@
 namespace pbrt {
 namespace {
 
-Dialect detected(const std::string& text) {
+DetectedDialect detect(const std::string& text) {
   std::vector<Directive> directives;
   Parser parser([&](Directive&& d) { directives.push_back(std::move(d)); });
   parser.text("test", text);
-  return detectDialect(directives).dialect;
+  return detectDialect(directives);
 }
 
-TEST(Dialect, TheFirstTellTaleDecides) {
+Dialect detected(const std::string& text) {
+  return detect(text).dialect;
+}
+
+TEST(Dialect, AStatementThatOnlyOneGenerationHasDecides) {
   EXPECT_EQ(detected("SearchPath \"x\""), Dialect::v1);
   EXPECT_EQ(detected("WorldBegin Material \"shinymetal\" WorldEnd"), Dialect::v1);
   EXPECT_EQ(detected("Renderer \"sampler\" Integrator \"path\""), Dialect::v2);
-  EXPECT_EQ(detected("Integrator \"path\" WorldBegin ActiveTransform All WorldEnd"), Dialect::v3);
-  EXPECT_EQ(detected("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\""), Dialect::v3);
+  EXPECT_EQ(detected("Sampler \"02sequence\" WorldBegin WorldEnd"), Dialect::v3);
+  EXPECT_EQ(detected("Film \"rgb\" WorldBegin"), Dialect::v4);
+  EXPECT_EQ(detected("WorldBegin Material \"dielectric\" WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("ColorSpace \"rec2020\" WorldBegin WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("Option \"bool disablepixeljitter\" true WorldBegin WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("MakeNamedMaterial \"a\" \"string type\" \"coateddiffuse\" WorldEnd"),
+            Dialect::v4);
+}
+
+TEST(Dialect, StatementsThatTwoHaveDecideTogether) {
+  EXPECT_EQ(detected("SurfaceIntegrator \"path\" WorldBegin NamedMaterial \"a\" WorldEnd"),
+            Dialect::v2);
+  EXPECT_EQ(detected("Integrator \"path\" Film \"image\" WorldBegin WorldEnd"), Dialect::v3);
+  EXPECT_EQ(detected("Integrator \"path\" WorldBegin Material \"matte\" WorldEnd"), Dialect::v3);
+  EXPECT_EQ(detected("Integrator \"path\" WorldBegin LightSource \"point\" \"color I\" [1 1 1]"),
+            Dialect::v3);
+  EXPECT_EQ(detected("Integrator \"volpath\" Film \"rgb\" WorldBegin"), Dialect::v4);
+}
+
+TEST(Dialect, BooleansWithoutQuotesAreV4s) {
+  EXPECT_EQ(detected("Integrator \"path\" \"bool regularize\" true WorldBegin WorldEnd"),
+            Dialect::v4);
+  EXPECT_EQ(detected("Integrator \"path\" \"bool regularize\" [true] WorldBegin WorldEnd"),
+            Dialect::v4);
+  EXPECT_EQ(detected("Integrator \"path\" \"bool regularize\" [\"true\"] WorldBegin WorldEnd"),
+            Dialect::v3);
+}
+
+TEST(Dialect, WithoutWorldEndItIsV4IfItCanBe) {
+  EXPECT_EQ(detected("Integrator \"path\" WorldBegin Shape \"sphere\""), Dialect::v4);
+  EXPECT_EQ(detected("Integrator \"path\" WorldBegin Shape \"sphere\" WorldEnd"), Dialect::v3);
+  EXPECT_EQ(detected("WorldBegin Shape \"sphere\""), Dialect::v4);
+  EXPECT_EQ(detected("SurfaceIntegrator \"path\" WorldBegin Shape \"sphere\""), Dialect::v2);
 }
 
 TEST(Dialect, AmbiguousFilesCountAsV2) {
   EXPECT_EQ(detected("SurfaceIntegrator \"whitted\" WorldBegin Material \"matte\" WorldEnd"),
             Dialect::v2);
   EXPECT_EQ(detected(""), Dialect::v2);
+  EXPECT_NE(detect("SurfaceIntegrator \"whitted\"").reason.find("nothing tells it from v1"),
+            std::string::npos);
 }
 
-TEST(Dialect, EveryGenerationsMaxdepthBecomesOurs) {
-  const auto translated = [](Dialect dialect, const std::string& integrator) {
-    ParamList params = {{ParamType::integer, "maxdepth", {}, {}, std::vector<int>{5}}};
-    translateParameters(dialect, PluginKind::integrator, integrator, params);
-    return std::get<std::vector<int>>(params[0].values).at(0);
-  };
-  EXPECT_EQ(translated(Dialect::v1, "whitted"), 6);
-  EXPECT_EQ(translated(Dialect::v2, "whitted"), 5);
-  EXPECT_EQ(translated(Dialect::v3, "whitted"), 5);
-  EXPECT_EQ(translated(Dialect::v1, "path"), 6);
-  EXPECT_EQ(translated(Dialect::v2, "path"), 6);
-  EXPECT_EQ(translated(Dialect::v3, "path"), 5);
+TEST(Dialect, WhatComesFirstDecidesWhereFilesMix) {
+  EXPECT_EQ(detected("Film \"rgb\" WorldBegin Material \"shinymetal\" WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("SurfaceIntegrator \"path\" SearchPath \"x\" WorldBegin ColorSpace \"srgb\""),
+            Dialect::v1);
+}
+
+TEST(Dialect, SaysWhichStatementTells) {
+  DialectDetector detector;
+  Parser parser([&](Directive&& d) { detector.look(d); });
+  parser.text("test", "LookAt 0 0 1 0 0 0 0 1 0\nFilm \"rgb\"");
+  EXPECT_TRUE(detector.decided());
+  EXPECT_EQ(detector.result().reason, "Film \"rgb\" tells");
+  EXPECT_EQ(diagnose(Severity::note, detector.result().where, "").line, 2U);
 }
 
 TEST(Dialect, NamesRoundTrip) {
-  for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3})
+  for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3, Dialect::v4})
     EXPECT_EQ(dialectByName(dialectName(d)), d);
   EXPECT_FALSE(dialectByName("v9"));
 }
