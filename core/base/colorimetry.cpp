@@ -71,11 +71,10 @@ Spectrum surfaceColour(const SampledSpectrum& spectrum) {
     return rec709FromXyz() * integrate(s, illuminantD65());
   };
   static const DVec3 white = seen(constantSpectrum(1));
-  const auto [least, greatest] =
-      std::minmax_element(spectrum.samples().begin(), spectrum.samples().end(),
-                          [](const auto& a, const auto& b) { return a.second < b.second; });
-  const DVec3 colour = seen(spectrum) / white;
-  return glm::max(glm::clamp(colour, least->second, greatest->second), 0.);
+  const auto greatest =
+      std::max_element(spectrum.samples().begin(), spectrum.samples().end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return glm::max(glm::min(seen(spectrum) / white, greatest->second), 0.);
 }
 
 }  // namespace pbrt

@@ -18,8 +18,8 @@ Spectrum colourOfLamp(const SampledSpectrum& spectrum);
 
 // A reflectance, an index of refraction, an absorption: what white light (D65) shows of it,
 //   c = (integral of spectrum * D65 * rgb) / (integral of D65 * rgb),
-// so that a spectrum that is c everywhere is the grey c. Never below 0, nor outside of the range of
-// the spectrum's values: what reflects no more than 1 at any wavelength has no component above 1.
+// so that a spectrum that is c everywhere is the grey c. Never below 0 nor above the greatest value
+// of the spectrum: what reflects no more than 1 at any wavelength has no component above 1.
 Spectrum surfaceColour(const SampledSpectrum& spectrum);
 
 }  // namespace pbrt

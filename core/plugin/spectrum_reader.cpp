@@ -91,8 +91,10 @@ SampledSpectrum readSpectrumFile(const std::filesystem::path& path, const Report
     throw Error(words.back(), "a wavelength without a value ends the spectrum");
   }
   SpectrumReader reader;
-  for (std::size_t i = 0; i < words.size(); i += 2)
-    reader.add(numberOf(words[i]), numberOf(words[i + 1]), words[i]);
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    const double nm = numberOf(words[i]);
+    reader.add(nm, numberOf(words[i + 1]), words[i]);
+  }
   return reader.finish({&source, 0, 1}, report);
 }
 
