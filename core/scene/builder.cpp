@@ -43,10 +43,10 @@ std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
 }
 
 // What is outside the gamut of Rec. 709 is moved to its border: no colour is negative.
-void toRec709(Param& colours, ColorSpace space) {
+void moveToRec709(Param& colours, ColorSpace space) {
   auto* values = std::get_if<std::vector<float>>(&colours.values);
   if (!values) return;
-  const glm::dmat3 m = rec709From(space);
+  const glm::dmat3 m = toRec709(space);
   for (std::size_t i = 0; i + 2 < values->size(); i += 3) {
     const DVec3 c = m * DVec3((*values)[i], (*values)[i + 1], (*values)[i + 2]);
     for (int k = 0; k < 3; ++k) (*values)[i + k] = static_cast<float>(std::max(0.0, c[k]));
@@ -89,7 +89,7 @@ void SceneBuilder::toThisGeneration(Directive& d) const {
     translateParameters(factory_.dialect(), plugin->first, plugin->second, d.params);
   if (colorSpace_ != ColorSpace::srgb)
     for (Param& p : d.params)
-      if (p.type == ParamType::rgb) toRec709(p, colorSpace_);
+      if (p.type == ParamType::rgb) moveToRec709(p, colorSpace_);
 }
 
 // Media are read, and left out of the picture.

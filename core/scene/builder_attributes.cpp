@@ -12,7 +12,7 @@ bool SceneBuilder::handleAttribute(Directive& d) {
       attributes_.reverse = !attributes_.reverse;
       return true;
     case DirectiveKind::ColorSpace:
-      colorSpace_ = findColorSpace(d);
+      colorSpace_ = colorSpaceOf(d);
       return true;
     case DirectiveKind::Attribute:
       setDefaults(d);
@@ -40,9 +40,9 @@ bool SceneBuilder::handleAttribute(Directive& d) {
   }
 }
 
-ColorSpace SceneBuilder::findColorSpace(const Directive& d) {
-  if (const auto space = colorSpaceByName(d.words.at(0))) return *space;
-  const std::vector<std::string> names(kColorSpaceNames.begin(), kColorSpaceNames.end());
+ColorSpace SceneBuilder::colorSpaceOf(const Directive& d) {
+  if (const auto space = findColorSpace(d.words.at(0))) return *space;
+  const std::vector<std::string> names = colorSpaceNames();
   throw Error(d.wordsWhere.at(0),
               fmt::format("there is no color space \"{}\" (it is one of {}){}", d.words[0],
                           fmt::join(names, ", "), didYouMean(d.words[0], names)));

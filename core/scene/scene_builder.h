@@ -71,7 +71,7 @@ class SceneBuilder {
   void save(const Directive& d);
   void restore(const Directive& d, DirectiveKind begin);
   bool concernsMedia(const Directive& d);
-  static ColorSpace findColorSpace(const Directive& d);
+  static ColorSpace colorSpaceOf(const Directive& d);
   void setDefaults(Directive& d);
   std::shared_ptr<const ParamList> defaultsFor(AttributeTarget target,
                                                const std::string& name) const;
