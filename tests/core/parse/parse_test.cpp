@@ -104,8 +104,9 @@ TEST(Directives, OptionsMayLeaveOutTheType) {
   }
   EXPECT_EQ(option("\"a\" true").type, ParamType::boolean);
   EXPECT_EQ(option("\"a\" [false]").type, ParamType::boolean);
+  EXPECT_EQ(option("\"a\" 2.0").type, ParamType::integer);
   EXPECT_EQ(option("\"a\" 1.5").type, ParamType::number);
-  EXPECT_EQ(option("\"a\" [1e3]").type, ParamType::number);
+  EXPECT_EQ(option("\"a\" [1e30]").type, ParamType::number);
   EXPECT_EQ(option("\"rendercoordsys\" \"true\"").type, ParamType::string);
 }
 
