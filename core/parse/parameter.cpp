@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/parse/numbers.h"
 
@@ -189,7 +190,10 @@ std::string_view typeOf(const Value& value) {
   const std::string_view text = textAt(value.items.empty() ? value.where : value.items[0]);
   if (text == "true" || text == "false") return "bool";
   if (text.starts_with('"')) return "string";
-  return text.find_first_of(".eE") == text.npos ? "integer" : "float";
+  std::vector<double> numbers;
+  readNumbers(value, {"numbers, as the first value is one"}, numbers);
+  const auto isInteger = [](double x) { return x == std::floor(x) && std::abs(x) <= 0x7fffffff; };
+  return std::ranges::all_of(numbers, isInteger) ? "integer" : "float";
 }
 
 }  // namespace

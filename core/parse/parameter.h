@@ -33,7 +33,7 @@ void readNumbers(const Value& value, const Wanted& wanted, std::vector<T>& numbe
 Param makeParam(const Location& declaration, const Value& value);
 
 // The same for Option, where the type may be left out, as pbrt-v4 itself does: "seed" 1. The value
-// then tells it: bool, integer, float or string.
+// then tells it: bool, integer (2.0 is one), float or string.
 Param makeOption(const Location& declaration, const Value& value);
 
 }  // namespace pbrt

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <new>
 
 #include "core/base/file.h"
 #include "core/parse/scanner.h"
@@ -12,49 +13,69 @@ namespace pbrt {
 namespace {
 
 constexpr std::size_t kDeepestInclude = 32;
+// Files that include others twice each, 32 deep, would be read 2^32 times.
+constexpr std::size_t kMostIncludes = 100000;
+
+// The one name of a file; empty if it is not there.
+std::filesystem::path realPath(const std::filesystem::path& path) {
+  std::error_code none;
+  return std::filesystem::canonical(path, none);
+}
 
 }  // namespace
 
 void Parser::file(const std::filesystem::path& path) {
-  parse(path.string(), readFile(path, FileKind::any), path);
+  const Source& source = keep(path.string(), readFile(path, FileKind::any));
+  if (const auto real = realPath(path); !real.empty()) files_[real] = &source;
+  parse(source, path);
 }
 
 void Parser::text(std::string name, std::string text, const std::filesystem::path& directory) {
-  parse(std::move(name), std::move(text), directory / "");
+  parse(keep(std::move(name), std::move(text)), directory / "");
 }
 
-void Parser::parse(std::string name, std::string text, std::filesystem::path path) {
-  sources_.push_back({std::move(name), std::move(text)});
-  const Source& source = sources_.back();
-  open_.push_back(std::move(path));
+const Source& Parser::keep(std::string name, std::string text) {
+  return sources_.emplace_back(Source{std::move(name), std::move(text)});
+}
+
+void Parser::parse(const Source& source, std::filesystem::path path) {
+  open_.push_back({source, std::move(path)});
   const std::shared_ptr<void> close(nullptr, [this](void*) { open_.pop_back(); });
 
   const IncludeHandler handler = [this](const Location& quoted) { include(quoted); };
   Scanner scanner(source);
   Statement statement(sink_);
-  SceneParser(scanner, statement, handler).parse();
+  try {
+    SceneParser(scanner, statement, handler).parse();
+  } catch (const std::bad_alloc&) {
+    throw Error(scanner.keyword, kNoMemory);
+  }
 }
 
 void Parser::include(const Location& quoted) {
   if (open_.size() > kDeepestInclude)
     throw Error(quoted, fmt::format("includes are nested more than {} deep", kDeepestInclude));
+  if (++includes_ > kMostIncludes)
+    throw Error(quoted, fmt::format("more than {} files are included", kMostIncludes));
   const std::filesystem::path name = unquote(quoted);
-  std::filesystem::path path = open_.back().parent_path() / name;
-  std::error_code none;
-  if (const auto fromFirst = open_.front().parent_path() / name;
-      !std::filesystem::exists(path, none) && std::filesystem::exists(fromFirst, none))
-    path = fromFirst;
-  for (const std::filesystem::path& open : open_)
-    if (std::filesystem::equivalent(open, path, none))
-      throw Error(quoted, fmt::format("{} includes itself", path.string()));
+  std::filesystem::path path = open_.back().path.parent_path() / name;
+  std::filesystem::path real = realPath(path);
+  if (real.empty()) {
+    const std::filesystem::path fromFirst = open_.front().path.parent_path() / name;
+    real = realPath(fromFirst);
+    if (!real.empty()) path = fromFirst;
+  }
 
-  std::string text;
+  const Source*& source = files_[real];
   try {
-    text = readFile(path);
+    if (!source) source = &keep(path.string(), readFile(path));
   } catch (const Error& error) {
     throw Error(quoted, error.diagnostics()[0].message);
   }
-  parse(path.string(), std::move(text), path);
+  for (const Open& open : open_)
+    if (&open.source == source)
+      throw Error(quoted, fmt::format("{} includes itself", path.string()));
+  parse(*source, path);
 }
 
 }  // namespace pbrt

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "core/parse/directive.h"
@@ -15,21 +16,33 @@ class Parser {
  public:
   explicit Parser(DirectiveSink sink) : sink_(std::move(sink)) {}
 
-  // Parses a file and all that it includes: found relative to the including file or, as in
-  // pbrt-v3, to the first one; at most 32 deep; a file that includes itself is an error. Throws
-  // Error: Failure::io if the first file cannot be read, Failure::scene for everything in the
-  // text. What the sink throws passes through. The first error ends the parse.
+  // Parses a file, perhaps gzipped, and all that it includes: found relative to the including file
+  // or, as in pbrt-v3, to the first one; at most 32 deep and 100000 in all; a file that includes
+  // itself is an error. Only the first file may be a pipe. Throws Error: Failure::io if the first
+  // file cannot be read, Failure::scene for everything in the text. What the sink throws passes
+  // through, but for std::bad_alloc: that becomes an Error at the statement. The first error ends
+  // the parse.
   void file(const std::filesystem::path& path);
   // Parses a text, e.g. standard input; includes are relative to `directory`.
   void text(std::string name, std::string text, const std::filesystem::path& directory = ".");
 
  private:
-  void parse(std::string name, std::string text, std::filesystem::path path);
+  // A file that is being read.
+  struct Open {
+    const Source& source;
+    std::filesystem::path path;
+  };
+
+  const Source& keep(std::string name, std::string text);
+  void parse(const Source& source, std::filesystem::path path);
   void include(const Location& quoted);
 
   DirectiveSink sink_;
-  std::deque<Source> sources_;               // addresses stay valid
-  std::vector<std::filesystem::path> open_;  // being read now, outermost first
+  std::deque<Source> sources_;  // addresses stay valid
+  // By the path without links, as a file has many names.
+  std::map<std::filesystem::path, const Source*> files_;
+  std::vector<Open> open_;  // outermost first
+  std::size_t includes_ = 0;
 };
 
 }  // namespace pbrt

@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 namespace pbrt {
 namespace {
 
 // A parameter is looked for among all others of its statement. Real ones have a few dozen.
 constexpr std::size_t kMostParameters = 1000;
+// A number takes two bytes or more: the numbers of a list can be counted in an int.
+constexpr std::size_t kLongestList = std::size_t{1} << 32;
 
 }  // namespace
 
@@ -27,6 +30,7 @@ void Statement::time(const Location& word) {
 }
 
 void Statement::list(const Location& where) {
+  if (where.length > kLongestList) throw Error(where, "this list is longer than 4 GiB");
   value_.where = where;
   value_.numbersOnly = true;
 }
@@ -63,7 +67,11 @@ void Statement::numbers(DirectiveKind kind, const Location& keyword) {
 void Statement::end(DirectiveKind kind, const Location& keyword) {
   directive_.kind = kind;
   directive_.where = keyword;
-  sink_(std::move(directive_));
+  try {
+    sink_(std::move(directive_));
+  } catch (const std::bad_alloc&) {
+    throw Error(keyword, kNoMemory);
+  }
   directive_.words.clear();
   directive_.wordsWhere.clear();
   directive_.numbers = {};

@@ -6,6 +6,8 @@
 
 namespace pbrt {
 
+constexpr const char* kNoMemory = "out of memory";
+
 class Statement {
  public:
   // The sink outlives it.

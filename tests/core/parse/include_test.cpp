@@ -1,7 +1,9 @@
 // Files that include files.
 
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 
 #include "tests/core/parse/parsing.h"
@@ -111,6 +113,51 @@ TEST_F(Include, GoesThirtyTwoDeep) {
   write("33", "Shape \"deep\"");
   EXPECT_EQ(read(folder_ / "1"), "deep");
   expectError(write("0", "Include \"1\""), "32", 1, 9, "includes are nested more than 32 deep");
+}
+
+// Each file includes the next twice: 2^31 of them, were there no end.
+TEST_F(Include, EndsWhereFilesMultiply) {
+  for (int i = 0; i < 31; ++i) {
+    const std::string next = "Include \"" + std::to_string(i + 1) + "\"\n";
+    write(std::to_string(i), next + next);
+  }
+  write("31", "");
+  const Error error = errorOf(folder_ / "0");
+  EXPECT_EQ(error.diagnostics()[0].message, "more than 100000 files are included");
+}
+
+TEST_F(Include, TheSameFileIsReadOnce) {
+  const fs::path b = write("b.pbrt", "Shape \"b\"");
+  std::vector<const Source*> sources;
+  Parser parser([&](Directive&& d) { sources.push_back(d.where.source); });
+  parser.file(write("a.pbrt", "Include \"b.pbrt\" Include \"b.pbrt\""));
+  ASSERT_EQ(sources.size(), 2U);
+  EXPECT_EQ(sources[0], sources[1]);
+}
+
+TEST_F(Include, OfAPackedFile) {
+  write("b.pbrt", "Shape \"b\"");
+  const std::string pack =
+      "gzip -c " + (folder_ / "b.pbrt").string() + " >" + (folder_ / "b.pbrt.gz").string();
+  ASSERT_EQ(std::system(pack.c_str()), 0);
+  EXPECT_EQ(read(write("a.pbrt", "Include \"b.pbrt.gz\"")), "b");
+  EXPECT_EQ(read(folder_ / "b.pbrt.gz"), "b");
+}
+
+TEST_F(Include, OfADeviceOrAPipeIsAnErrorThere) {
+  expectError(write("a.pbrt", "Include \"/dev/zero\""), "a.pbrt", 1, 9,
+              "cannot read /dev/zero: it is not a file");
+  const fs::path pipe = folder_ / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  expectError(write("a.pbrt", "Include \"pipe\""), "a.pbrt", 1, 9,
+              "cannot read " + pipe.string() + ": it is not a file");
+}
+
+// A folder that links to itself gives each file endlessly many names.
+TEST_F(Include, SeesThroughLinkedFolders) {
+  fs::create_directory_symlink(".", folder_ / "here");
+  expectError(write("a.pbrt", "Include \"here/here/here/a.pbrt\""), "a.pbrt", 1, 9,
+              (folder_ / "here/here/here/a.pbrt").string() + " includes itself");
 }
 
 TEST_F(Include, ErrorsNameTheIncludedFile) {

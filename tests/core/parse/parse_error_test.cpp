@@ -1,5 +1,6 @@
 // What is wrong is said in plain words, at its exact place.
 
+#include "core/parse/statement.h"
 #include "tests/core/parse/parsing.h"
 
 namespace pbrt {
@@ -97,6 +98,23 @@ TEST(ParseErrors, Strings) {
   EXPECT_EQ(errorOf("Shape \"abc\\"), "1:7: " + open);
   EXPECT_EQ(errorOf("Shape \"" + std::string(100000, 'x')), "1:7: " + open);
   EXPECT_EQ(errorOf("Shape \"a\\qb\""), "1:9: unknown escape; a backslash itself is written \\\\");
+}
+
+TEST(ParseErrors, WhatIsTooLongOrTooMuch) {
+  EXPECT_EQ(errorOf("Shape \"a\" \"string s\" \"" + std::string(65534, 'x') + "\""), "");
+  EXPECT_EQ(errorOf("Shape \"a\" \"string s\" \"" + std::string(65535, 'x') + "\""),
+            "1:22: this string is longer than 64 KiB");
+  const auto parameters = [](int count) {
+    std::string text = "Shape \"a\"";
+    for (int i = 0; i < count; ++i) text += "\n\"float x" + std::to_string(i) + "\" 1";
+    return text;
+  };
+  EXPECT_EQ(errorOf(parameters(1000)), "");
+  EXPECT_EQ(errorOf(parameters(1000000)), "1002:1: a statement takes at most 1000 parameters");
+  // No text of 4 GiB is needed to refuse one.
+  const Source source{"t", "["};
+  const DirectiveSink sink;
+  EXPECT_THROW(Statement(sink).list({&source, 0, (std::size_t{1} << 32) + 1}), Error);
 }
 
 TEST(ParseErrors, BytesOfNoText) {

@@ -104,8 +104,9 @@ TEST(Directives, OptionsMayLeaveOutTheType) {
   }
   EXPECT_EQ(option("\"a\" true").type, ParamType::boolean);
   EXPECT_EQ(option("\"a\" [false]").type, ParamType::boolean);
+  EXPECT_EQ(option("\"a\" 2.0").type, ParamType::integer);
   EXPECT_EQ(option("\"a\" 1.5").type, ParamType::number);
-  EXPECT_EQ(option("\"a\" [1e3]").type, ParamType::number);
+  EXPECT_EQ(option("\"a\" [1e30]").type, ParamType::number);
   EXPECT_EQ(option("\"rendercoordsys\" \"true\"").type, ParamType::string);
 }
 
@@ -217,7 +218,7 @@ TEST(Parameters, StringsMayHoldAnything) {
   EXPECT_EQ(strings("\"string x\" \"# ] [ \xC3\xA4\xFF\""),
             std::vector<std::string>{"# ] [ \xC3\xA4\xFF"});
   EXPECT_EQ(strings("\"string x\" []"), std::vector<std::string>{});
-  const std::string longName(100000, 'x');
+  const std::string longName(65000, 'x');
   EXPECT_EQ(strings("\"string x\" \"" + longName + "\""), std::vector<std::string>{longName});
 }
 
@@ -265,6 +266,18 @@ TEST(Parser, PassesOnWhatTheSinkThrows) {
   EXPECT_EQ(count, 2);
   parser.text("t", "WorldEnd");  // and can go on
   EXPECT_EQ(count, 3);
+}
+
+TEST(Parser, NamesTheStatementThatMemoryIsTooSmallFor) {
+  Parser parser([](Directive&& d) {
+    if (d.kind == DirectiveKind::Shape) throw std::bad_alloc();
+  });
+  try {
+    parser.text("t", "WorldBegin\n  Shape \"s\"\nWorldEnd");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "t:2:3: error: out of memory\n 2 |   Shape \"s\"\n   |   ^~~~~");
+  }
 }
 
 TEST(Parser, HandsOverWhatCameBeforeAnError) {

@@ -75,13 +75,17 @@ TEST(Robustness, LargeRepetitions) {
   for (const std::string& text :
        {nuls, "#" + nuls, "\"" + nuls, "Shape \"a\" \"float x\" [" + nuls, std::string(kSize, '['),
         std::string(kSize, ']'), std::string(kSize, '"'), "#" + std::string(kSize, '#'),
-        "\"" + std::string(kSize, 'x'), "\"" + std::string(kSize, '\\'), std::string(kSize, 'x'),
-        std::string(kSize, '9'), "Translate " + std::string(kSize, '9'),
+        "\"" + std::string(kSize, 'x'), "Shape \"" + std::string(kSize, 'x') + "\"",
+        "\"" + std::string(kSize, '\\'), std::string(kSize, 'x'), std::string(kSize, '9'),
+        "Translate " + std::string(kSize, '9'),
         "Shape \"a\" \"float x\" [" + std::string(kSize, '9') + "]"})
     expectOrderly(text);
   std::string brackets;
   for (std::size_t i = 0; i < kSize / 30; ++i) brackets += "Shape \"a\" \"float x\" [1 # [\n] ";
   EXPECT_EQ(test::errorOf(brackets), "");
+  std::string statements;
+  for (std::size_t i = 0; i < kSize / 10; ++i) statements += "Identity\n";
+  EXPECT_EQ(test::errorOf(statements), "");
   std::string items = "Shape \"a\" \"integer x\" [ # one by one\n";
   for (std::size_t i = 0; i < kSize / 4; ++i) items += "123 ";
   EXPECT_EQ(test::errorOf(items + "]"), "");
