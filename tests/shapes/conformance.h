@@ -47,6 +47,7 @@ inline const std::map<std::string, std::vector<Row>> kTable = {
       {"crossing",
        {points("p1", {1, 0, -1}), points("p2", {-0.5F, 0, 1}), number("phimax", 300)}}}},
     {"trianglemesh", {{"triangle", {points("P", {0, 0, 0, 1, 0, 0, 0, 1, 0})}}}},
+    {"plymesh", {{"tent", {text("filename", PBRT_SOURCE_DIR "/tests/shapes/tent.ply")}}}},
     {"loopsubdiv",
      {{"tetrahedron",
        {points("P", {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1}),

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <memory>
 
-namespace pbrt::particles {
+namespace pbrt::files {
 namespace {
 
 // How many bytes to expect. A gzipped file says at its end what it holds, modulo 2^32 (RFC 1952,
@@ -77,4 +77,4 @@ void Input::failAtText(std::string_view marked, const std::string& message) cons
   throw Error({std::move(d)});
 }
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files
