@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <mutex>
 
 #include "core/base/rng.h"
 #include "core/base/warp.h"
@@ -98,11 +99,7 @@ class BilinearMesh final : public Shape, public AreaSampler {
     checkVertices(p, "P", positions_, positions_.size());
     checkVertices(p, "uv", uv_, positions_.size());
     checkVertices(p, "N", normals_, positions_.size());
-    for (std::uint32_t i = 0; i < primitives(); ++i) {
-      const double before = cumulative_.empty() ? 0 : cumulative_.back();
-      cumulative_.push_back(before + patchArea(patch(i)));
-      box_.add(bounds(i));
-    }
+    for (std::uint32_t i = 0; i < primitives(); ++i) box_.add(bounds(i));
   }
 
   std::uint32_t primitives() const override {
@@ -129,7 +126,14 @@ class BilinearMesh final : public Shape, public AreaSampler {
     return at(hit.primitive, root.u, root.v);
   }
 
-  const AreaSampler* areaSampler() const override { return area() > 0 ? this : nullptr; }
+  const AreaSampler* areaSampler() const override {
+    std::call_once(measured_, [&] {
+      double sum = 0;
+      for (std::uint32_t i = 0; i < primitives(); ++i)
+        cumulative_.push_back(sum += patchArea(patch(i)));
+    });
+    return area() > 0 ? this : nullptr;
+  }
   double area() const override { return cumulative_.empty() ? 0 : cumulative_.back(); }
   AreaSample sample(const DPoint3& from, Point2 u) const override {
     const double x = u.x * area();
@@ -139,7 +143,7 @@ class BilinearMesh final : public Shape, public AreaSampler {
     const Patch p = patch(primitive);
     // Uniform in (u, v) is denser where the patch is narrow: such points are kept as often as they
     // stand for area, or drawn again. Of a parallelogram the first is kept.
-    double most = 0;
+    double most = 0;  // of a convex function: in a corner
     for (const double v : {0.0, 1.0})
       for (const double w : {0.0, 1.0}) most = std::max(most, glm::length(normal(p, v, w)));
     glm::dvec2 uv((x - before) / (*chosen - before), u.y);
@@ -175,7 +179,7 @@ class BilinearMesh final : public Shape, public AreaSampler {
 
   // The integral of |dP/du x dP/dv|, by Simpson's rule over cells.
   static double patchArea(const Patch& p) {
-    constexpr int kCells = 32;
+    constexpr int kCells = 16;
     double sum = 0;
     for (int j = 0; j <= 2 * kCells; ++j)
       for (int i = 0; i <= 2 * kCells; ++i) {
@@ -240,7 +244,9 @@ class BilinearMesh final : public Shape, public AreaSampler {
   std::vector<std::uint32_t> indices_;
   std::vector<Point2> uv_;
   std::vector<Normal3> normals_;
-  std::vector<double> cumulative_;  // area of all patches up to and including the i-th
+  // Made when the shape shines: area of all patches up to and including the i-th.
+  mutable std::vector<double> cumulative_;
+  mutable std::once_flag measured_;
   Bounds3 box_;
 };
 
