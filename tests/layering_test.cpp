@@ -42,7 +42,7 @@ const std::vector<Rule>& rules() {
     list[3].what.push_back("parse/scene.");  // made by flex and bison in the build folder
     list.push_back({"tools/", {"core/", "tools/"}});
     for (const std::string& folder : kPluginFolders)
-      list.push_back({folder, {"core/base/", "core/api/", "core/plugin/"}});
+      list.push_back({folder, {"core/base/", "core/api/", "core/plugin/", folder + "files/"}});
     return list;
   }();
   return all;
@@ -173,6 +173,8 @@ TEST(Layering, TheRulesTellRightFromWrong) {
   EXPECT_TRUE(wrong("shapes/a.cpp", "#include \"lights/b.h\""));
   EXPECT_TRUE(wrong("shapes/a.cpp", "#include \"shapes/b.cpp\""));
   EXPECT_TRUE(wrong("shapes/a.cpp", "#include \"shapes/metaballs/b.h\""));
+  EXPECT_FALSE(wrong("shapes/metaballs/a.cpp", "#include \"shapes/files/b.h\""));
+  EXPECT_TRUE(wrong("lights/a.cpp", "#include \"shapes/files/b.h\""));
   EXPECT_FALSE(wrong("shapes/metaballs/a.cpp", "#include \"shapes/metaballs/b.h\""));
   EXPECT_FALSE(wrong("shapes/metaballs/a.cpp", "#include \"shapes/metaballs/c/b.h\""));
   EXPECT_TRUE(wrong("core/scene/film.cpp", "#include <embree3/rtcore.h>"));

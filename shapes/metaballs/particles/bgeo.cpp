@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include "formats.h"
-#include "records.h"
+#include "quantities.h"
 
 namespace pbrt::particles {
+
+using files::Field, files::load;
+
 namespace {
 
 class BgeoReader {

@@ -2,10 +2,12 @@
 // One reader a format. Each throws Error at what is malformed, before it makes room for more
 // particles than the file can hold; whether the numbers are finite is left to the caller.
 
-#include "input.h"
 #include "particles.h"
+#include "shapes/files/input.h"
 
 namespace pbrt::particles {
+
+using files::Input;
 
 // Stanford PLY: ascii, binary in either byte order; of its elements only "vertex" is read.
 Particles readPly(const Input& input);

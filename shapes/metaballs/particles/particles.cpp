@@ -5,14 +5,14 @@
 #include <algorithm>
 
 #include "formats.h"
-#include "scanner.h"
+#include "shapes/files/scanner.h"
 
 namespace pbrt {
 namespace particles {
 namespace {
 
 Particles readByName(const Input& input) {
-  std::filesystem::path name = lowered(input.name());
+  std::filesystem::path name = files::lowered(input.name());
   if (name.extension() == ".gz") name = name.stem();
   const std::string suffix = name.extension().string();
   if (suffix == ".ply") return readPly(input);

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <array>
 
-#include "scanner.h"
+#include "shapes/files/scanner.h"
 
 namespace pbrt::particles {
+
+using files::lowered;
+
 namespace {
 
 using enum Quantity;

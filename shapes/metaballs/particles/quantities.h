@@ -4,10 +4,13 @@
 #include <optional>
 #include <span>
 
-#include "input.h"
 #include "particles.h"
+#include "shapes/files/input.h"
+#include "shapes/files/records.h"
 
 namespace pbrt::particles {
+
+using files::Input, files::NumberType, files::Target;
 
 enum class Quantity : std::uint8_t { position, radius, color, velocity, strength };
 
@@ -36,13 +39,6 @@ void allocate(Particles& particles, Quantity quantity, std::size_t count);
 void allocate(Particles& particles, const Columns& columns, std::size_t count);
 
 // Where one number of every particle goes. Valid until the next allocation.
-struct Target {
-  float* first = nullptr;
-  std::size_t stride = 1;
-  float scale = 1;
-
-  void store(std::size_t particle, float value) const { first[particle * stride] = scale * value; }
-};
 Target target(Particles& particles, Slot slot);
 
 }  // namespace pbrt::particles

@@ -4,10 +4,13 @@
 #include <array>
 
 #include "formats.h"
-#include "records.h"
-#include "scanner.h"
+#include "quantities.h"
+#include "shapes/files/scanner.h"
 
 namespace pbrt::particles {
+
+using files::Field, files::Scanner, files::convert, files::isBlank, files::isSpace;
+
 namespace {
 
 // The columns of a table without names.

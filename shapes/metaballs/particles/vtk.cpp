@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include "formats.h"
-#include "records.h"
-#include "scanner.h"
+#include "quantities.h"
+#include "shapes/files/scanner.h"
 
 namespace pbrt::particles {
+
+using files::Field, files::Scanner, files::lowered;
+
 namespace {
 
 class VtkReader {

@@ -6,7 +6,7 @@
 #include <charconv>
 #include <cstring>
 
-namespace pbrt::particles {
+namespace pbrt::files {
 namespace {
 
 template <class T>
@@ -84,4 +84,4 @@ void Scanner::endLine() {
   if (p_ != end_) ++p_;
 }
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files

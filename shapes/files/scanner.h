@@ -5,7 +5,7 @@
 
 #include "input.h"
 
-namespace pbrt::particles {
+namespace pbrt::files {
 
 constexpr bool isBlank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
@@ -55,4 +55,4 @@ class Scanner {
   const char* end_;
 };
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files

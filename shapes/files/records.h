@@ -1,14 +1,13 @@
 #pragma once
 // Binary numbers in records of one size, in either byte order.
 
+#include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <cstring>
-#include <optional>
 #include <span>
 
-#include "quantities.h"
-
-namespace pbrt::particles {
+namespace pbrt::files {
 
 enum class NumberType : std::uint8_t {
   int8,
@@ -41,6 +40,15 @@ T load(const char* p, std::endian order) {
 
 double loadNumber(const char* p, NumberType type, std::endian order);
 
+// Where one number of every record goes.
+struct Target {
+  float* first = nullptr;
+  std::size_t stride = 1;
+  float scale = 1;
+
+  void store(std::size_t record, float value) const { first[record * stride] = scale * value; }
+};
+
 // One number of every record.
 struct Field {
   std::size_t offset = 0;  // from the record's first byte
@@ -48,8 +56,8 @@ struct Field {
   Target to;
 };
 
-// Copies those fields of `count` records of `size` bytes to particles 0, 1, ...
+// Copies those fields of `count` records of `size` bytes to the places 0, 1, ... of their targets.
 void copyRecords(const char* first, std::size_t size, std::size_t count, std::endian order,
                  std::span<const Field> fields);
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files

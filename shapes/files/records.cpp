@@ -1,8 +1,6 @@
 #include "records.h"
 
-#include <algorithm>
-
-namespace pbrt::particles {
+namespace pbrt::files {
 namespace {
 
 // use(T()) for the C++ type T.
@@ -36,9 +34,9 @@ auto withType(NumberType type, Use use) {
 
 template <class T, std::endian order>
 void copyField(const char* from, std::size_t size, std::size_t count, const Target& to,
-               std::size_t particle) {
+               std::size_t record) {
   for (std::size_t i = 0; i < count; ++i, from += size)
-    to.store(particle + i, static_cast<float>(load<T>(from, order)));
+    to.store(record + i, static_cast<float>(load<T>(from, order)));
 }
 
 }  // namespace
@@ -72,4 +70,4 @@ void copyRecords(const char* first, std::size_t size, std::size_t count, std::en
       });
 }
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files

@@ -1,5 +1,5 @@
 #pragma once
-// A particle file in memory, and the errors that name a place in it.
+// A data file in memory, and the errors that name a place in it.
 
 #include <filesystem>
 #include <string>
@@ -7,7 +7,7 @@
 
 #include "core/base/error.h"
 
-namespace pbrt::particles {
+namespace pbrt::files {
 
 class Input {
  public:
@@ -29,4 +29,4 @@ class Input {
   std::string bytes_;
 };
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files

@@ -6,7 +6,7 @@
 
 #include "core/base/file.h"
 
-namespace pbrt::particles {
+namespace pbrt::files {
 
 Input::Input(const std::filesystem::path& file) : Input(file.string(), readFile(file)) {}
 
@@ -29,4 +29,4 @@ void Input::failAtText(std::string_view marked, const std::string& message) cons
   throw Error({std::move(d)});
 }
 
-}  // namespace pbrt::particles
+}  // namespace pbrt::files
