@@ -33,9 +33,9 @@ class CoatedConductorMaterial final : public Material {
     const auto wider = [&](float own, float coats) {
       return std::sqrt(sqr(own) + bend * sqr(coats));
     };
-    const TrowbridgeReitz facets(wider(base.smooth ? 0 : base.x, coat.x),
-                                 wider(base.smooth ? 0 : base.y, coat.y));
-    bsdf.add(place<CoatedConductor>(scratch, boundary, facets, fresnel));
+    const float x = wider(base.smooth ? 0 : base.x, coat.x);
+    const float y = wider(base.smooth ? 0 : base.y, coat.y);
+    bsdf.add(place<CoatedConductor>(scratch, boundary, x, y, fresnel));
   }
   bool filters() const override {
     return coat_.filters() || conductor_.filters() || roughness_.filters() ||

@@ -74,26 +74,38 @@ class CoatedDiffuse final : public Bxdf {
   CoatBoundary coat_;
 };
 
-// A rough conductor under the coat, which refracts light in and out by Snell's law at the surface
-// normal. With directions in the coat primed, cos i' di' = cos i di / eta^2, so that
-//   f(o, i) = T(o) T(i) f'(o', i') / eta^2.
-// Of what the conductor sends up, the coat sends a share F_i back to it, again and again. As if all
-// this went the same way, the sum of the series is 1 / (1 - F F_i), where F is the conductor's
-// Fresnel term; with the lesser F_i of both directions no energy is made. Exact for a smooth
-// conductor. Light that a rough one sends beyond the critical angle is lost.
+// A rough conductor under the coat. Refraction by the coat spreads its highlight: seen frontally,
+// as facets that are steeper by eta would. Such facets are taken for every direction, with the
+// conductor's Fresnel term C at the angle inside, and the transmittance of the coat both ways. Of
+// what the conductor sends up the coat sends a share F back to it, again and again. As if all this
+// went the same way,
+//   f = f'(o, i) T(o) T(i) (1 + F C + (F C)^2 + ...),
+// with the lesser F of both directions, so that no energy is made. Exact for smooth layers.
 class CoatedConductor final : public Bxdf {
  public:
-  // `conductor`: its index over that of the coat.
-  CoatedConductor(const CoatBoundary& coat, const TrowbridgeReitz& facets,
+  // `alphaX`, `alphaY`: the conductor's; `conductor`: its index over that of the coat.
+  CoatedConductor(const CoatBoundary& coat, float alphaX, float alphaY,
                   const ConductorFresnel& conductor)
-      : Bxdf(kReflection | kGlossy), coat_(coat), facets_(facets), conductor_(conductor) {}
-  Spectrum f(const Vec3& wo, const Vec3& wi) const override;
-  float pdf(const Vec3& wo, const Vec3& wi) const override;
-  std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override;
+      : Bxdf(kReflection | kGlossy),
+        coat_(coat),
+        facets_(Spectrum(1), {coat.eta() * alphaX, coat.eta() * alphaY}, {}),
+        conductor_(conductor) {}
+  Spectrum f(const Vec3& wo, const Vec3& wi) const override {
+    return sameHemisphere(wo, wi) ? facets_.f(wo, wi) * filtered(wo, wi) : Spectrum(0);
+  }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return facets_.pdf(wo, wi); }
+  std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
+    std::optional<BsdfSample> s = facets_.sample(wo, u);
+    if (s) s->f *= filtered(wo, s->wi);
+    return s;
+  }
 
  private:
+  // The share that coat and conductor leave of the light that the facets turn from wi to wo.
+  Spectrum filtered(const Vec3& wo, const Vec3& wi) const;
+
   CoatBoundary coat_;
-  TrowbridgeReitz facets_;
+  MicrofacetReflection<TrowbridgeReitz, NoFresnel> facets_;
   ConductorFresnel conductor_;
 };
 

@@ -79,8 +79,9 @@ class MicrofacetTransmission final : public Bxdf {
   }
   Spectrum value(const Vec3& wo, const Vec3& wi, const Facet& facet, float D) const {
     const float G = 4 * distribution_.masking(wo, wi, facet.h, facet.cosO);  // over the cosines
-    return D * G * (1 - fresnelDielectric(facet.cosO, facet.eta)) * facet.cosO * jacobian(facet) *
-           transmittance_;
+    // The same from both sides; from the rarer one no digits cancel at the critical angle.
+    const float F = fresnelDielectric(facet.eta > 1 ? facet.cosO : facet.cosI, facet.eta);
+    return D * G * (1 - F) * facet.cosO * jacobian(facet) * transmittance_;
   }
   float density(const Vec3& wo, const Facet& facet, float D) const {
     const float visible = 4 * facet.cosO * distribution_.reflectedPdf(wo, facet.cosO, D);

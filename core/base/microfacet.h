@@ -62,8 +62,8 @@ class Blinn {
 // s(w) = sqrt(cos^2 + alphaX^2 w.x^2 + alphaY^2 w.y^2): the cosines cancel against the model's.
 class TrowbridgeReitz {
  public:
-  // Narrower ones cannot be told from a mirror, wider ones not from each other.
-  static constexpr float kMin = 1e-3F, kMax = 1e3F;
+  // Narrower ones cannot be told from a mirror, wider ones are all of upright facets.
+  static constexpr float kMin = 1e-3F, kMax = 10;
 
   TrowbridgeReitz(float alphaX, float alphaY)
       : alphaX_(std::min(kMax, std::max(kMin, alphaX))),

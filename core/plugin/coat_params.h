@@ -15,8 +15,9 @@ class Coat {
   Coat(Params& p, const std::string& prefix)
       : roughness_(p, 0, prefix),
         eta_(p.refractiveIndex(prefix + "eta", 1.5F, "index of refraction of the coat")),
-        table_(eta_) {
+        smooth_(eta_) {
     if (!(eta_ >= 1)) p.fail(prefix + "eta", "must be at least 1");
+    if (!roughness_.none()) rough_.emplace(eta_);
     for (const char* name : {"thickness", "g"}) p.floatTexture(name, 0, "has no effect");
     for (const char* name : {"maxdepth", "nsamples"})
       p.integer(name, 1, 0, std::numeric_limits<int>::max(), "has no effect: nothing is random");
@@ -38,17 +39,18 @@ class Coat {
     const TwoSidedFresnel fresnel{eta_};
     if (widths.smooth) {
       bsdf.add(place<Mirror>(scratch, Spectrum(1), fresnel));
-      return table_.boundary(0);
+      return smooth_;
     }
     bsdf.add(place<Gloss>(scratch, Spectrum(1), widths.facets(), fresnel));
-    return table_.boundary(std::sqrt(widths.x * widths.y));
+    return rough_->boundary(std::sqrt(widths.x * widths.y));
   }
   bool filters() const { return roughness_.filters(); }
 
  private:
   Roughness roughness_;
   float eta_;
-  RoughCoatTable table_;
+  CoatBoundary smooth_;
+  std::optional<RoughCoatTable> rough_;  // where it is not smooth everywhere
 };
 
 }  // namespace pbrt

@@ -74,6 +74,8 @@ class Roughness {
     const float u = u_(at);
     return {u, same_ ? u : v_(at)};
   }
+  // Whether it is 0 everywhere.
+  bool none() const { return !u_.texture() && !v_.texture() && (*this)({}) == Vec2(0); }
   bool filters() const { return u_.filters() || v_.filters(); }
 
  private:

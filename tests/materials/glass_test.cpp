@@ -1,3 +1,4 @@
+#include "core/api/lobes.h"
 #include "tests/materials/scattering.h"
 
 namespace pbrt::test {
@@ -69,8 +70,47 @@ TEST(Glass, BlackPartsAreLeftOut) {
 TEST(Glass, RefusesWhatItCannotBe) {
   EXPECT_THROW(make<Material>("glass", {number("index", 0)}), Error);
   EXPECT_THROW(make<Material>("glass", {number("eta", -1.5F)}), Error);
-  EXPECT_THROW(make<Material>("glass", {number("uroughness", 0.1F)}), Error);
-  EXPECT_NO_THROW(make<Material>("glass", {number("vroughness", 0)}));
+  EXPECT_THROW(make<Material>("glass", {text("remapping", "v5")}), Error);
+}
+
+constexpr std::uint8_t kFrosted = kReflection | kTransmission | kGlossy;
+const Param kAlpha = flag("remaproughness", false);
+
+TEST(Glass, NoRoughnessIsClear) {
+  for (const ParamList& none :
+       {ParamList{}, ParamList{number("roughness", 0)},
+        ParamList{number("roughness", 1e-4F), kAlpha},
+        ParamList{number("uroughness", 0), number("vroughness", 0), text("remapping", "v4")},
+        // Facets of what has the index of air bend nothing.
+        ParamList{number("roughness", 0.5F), number("index", 1)}})
+    EXPECT_EQ(Scattering("glass", none)->lobes(kSpecular | kReflection | kTransmission), 2);
+  for (const ParamList& rough :
+       {ParamList{number("roughness", 0.1F)}, ParamList{number("vroughness", 0.1F)}})
+    EXPECT_EQ(Scattering("glass", rough)->lobes(kFrosted), 2);
+}
+
+// Sharp facets mask little: nothing is lost, and the shares are those of clear glass.
+TEST(Glass, SlightRoughnessLosesLittle) {
+  const Scattering glass("glass", {number("roughness", 0.03F), kAlpha});
+  for (const double angle : {0.0, 40.0, 65.0, 115.0, 155.0, 180.0}) {
+    const Vec3 wo = direction(angle);
+    const double r = albedo(*glass.operator->(), wo, 40000, kReflection | kGlossy);
+    const double t = albedo(*glass.operator->(), wo, 40000, kTransmission | kGlossy);
+    EXPECT_NEAR(r + t, 1, 0.01) << angle;
+    EXPECT_NEAR(r, fresnelDielectric(wo.z, 1.5F), 0.02) << angle;
+  }
+}
+
+TEST(Glass, RoughnessIsMappedAsItsGenerationDoes) {
+  const auto peak = [](const ParamList& set) {
+    return Scattering("glass", set)->f({0, 0, 1}, {0, 0, 1}).x;
+  };
+  // D(z) G F / 4 = 0.04 / (4 pi alpha^2)
+  const auto expected = [](double alpha) { return 0.01 / (std::numbers::pi * alpha * alpha); };
+  const Param roughness = number("roughness", 0.25F);
+  EXPECT_NEAR(peak({roughness, kAlpha}), expected(0.25), 1e-4);
+  EXPECT_NEAR(peak({roughness, text("remapping", "v4")}), expected(0.5), 1e-4);
+  EXPECT_NEAR(peak({roughness}), expected(TrowbridgeReitz::alpha(0.25F)), 1e-4);
 }
 
 }  // namespace

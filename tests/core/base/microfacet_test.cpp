@@ -64,6 +64,7 @@ void checkDistribution(const Distribution& d) {
 
 TEST(Microfacet, Blinn) {
   for (const float roughness : {1.F, 0.1F, 0.01F, 0.F}) checkDistribution(Blinn(roughness));
+  checkDistribution(Blinn(0.5F, 0.05F));
 }
 
 TEST(Microfacet, TrowbridgeReitz) {
@@ -88,7 +89,10 @@ TEST(Microfacet, VisibleNormalsAreAllThatIsSeen) {
 // A wide x axis spreads the normals along x.
 TEST(Microfacet, AlphaXIsTheWidthInX) {
   const TrowbridgeReitz d(0.6F, 0.1F);
-  EXPECT_GT(d.D(glm::normalize(Vec3(0.5F, 0, 1))), d.D(glm::normalize(Vec3(0, 0.5F, 1))));
+  const Blinn b(0.6F, 0.1F);
+  const Vec3 x = glm::normalize(Vec3(0.5F, 0, 1)), y = glm::normalize(Vec3(0, 0.5F, 1));
+  EXPECT_GT(d.D(x), d.D(y));
+  EXPECT_GT(b.D(x), b.D(y));
 }
 
 TEST(Microfacet, AlphaGrowsWithRoughness) {
