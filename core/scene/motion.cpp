@@ -41,7 +41,7 @@ bool isNear(const std::vector<Matrix>& keys, const Way& at, const Bounds3& exten
       longest2 = std::max(longest2, lengthSquared(way * p));
     }
   }
-  return sqr(9.0 / 8) * worst2 <= sqr(0x1p-14) * longest2;
+  return sqr(9.0 / 8) * worst2 <= sqr(0x1p-12) * longest2;
 }
 
 }  // namespace

@@ -62,13 +62,13 @@ TEST(Motion, KeepsToItsWay) {
     EXPECT_LE(motion.keys().size(), Motion::kMostSteps + 1U);
     // The longest way is sampled here, so it may come out shorter.
     const double most = motion.keys().size() <= Motion::kMostSteps ? 1.5 : 4;
-    EXPECT_LT(deviation(motion, outer, inner), most * 0x1p-14);
+    EXPECT_LT(deviation(motion, outer, inner), most * 0x1p-12);
   }
 }
 
 TEST(Motion, HalfATurnStaysNearItsCircle) {
   const AnimatedTransform t = way({}, Transform::rotate(180, {1, 1, 1}));
-  EXPECT_LT(deviation(Motion(t, {}, kBox), t, {}), 1.2 * 0x1p-14);
+  EXPECT_LT(deviation(Motion(t, {}, kBox), t, {}), 1.2 * 0x1p-12);
 }
 
 TEST(Motion, AWayThatIsNearlyFlatAllAlongIsRefused) {
