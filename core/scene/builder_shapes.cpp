@@ -6,6 +6,21 @@
 
 namespace pbrt {
 
+namespace {
+
+// The holes of a shape, which any shape may have; none if it is whole.
+std::optional<Cutout> cutout(Params& shape, Dialect dialect) {
+  Cutout c;
+  c.alpha = shape.floatTexture("alpha", 1, "0 where the shape has a hole");
+  c.shadowAlpha = shape.floatTexture("shadowalpha", 1, "0 where only shadow rays pass");
+  c.partial = dialect > Dialect::v3;
+  for (const Textured<float>* t : {&c.alpha, &c.shadowAlpha})
+    if (t->texture() || (*t)({}) < 1) return c;
+  return {};
+}
+
+}  // namespace
+
 void SceneBuilder::addLight(const Directive& d) {
   auto light = factory_.make<Light>(d.words.at(0), d.params, d.where, {startOf(d), nullptr});
   scene_->ownLights_.push_back(std::move(light));
@@ -43,8 +58,9 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   auto g = std::make_unique<Geometry>();
 
   const PluginInfo& plugin = factory_.open(PluginKind::shape, d.words.at(0), d.where);
-  Params params = factory_.params(plugin, d.where, {&d.params});
+  Params params = factory_.params(plugin, d.where, {&d.params}, attributes.textures.get());
   g->shape = create<Shape>(plugin, params, {});
+  g->cutout = cutout(params, factory_.dialect());
   // What the shape does not know may be meant for its material.
   if (const auto unread = params.unread(); unread.empty()) {
     g->material = attributes.material->shared(factory_, attributes.textures);
@@ -62,12 +78,13 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   g->flip = attributes.reverse != toGroup.swapsHandedness();
   g->toGroup = toGroup;
   g->mesh = g->shape->triangles();
+  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
   if (g->mesh) {
     transformMesh(*g->mesh, toGroup);
     g->toGroup = Transform();
-    group.accel.add(*g->mesh);
+    group.accel.add(*g->mesh, filter);
   } else {
-    group.accel.add(*g->shape, g->toGroup, d.where);
+    group.accel.add(*g->shape, g->toGroup, d.where, filter);
   }
   ++scene_->shapes_;
   if (attributes.areaLight) {
@@ -93,6 +110,9 @@ void SceneBuilder::addAreaLight(const Directive& light, const Directive& shape,
                                 shape.words.at(0)));
     return;
   }
+  if (g.cutout)
+    factory_.report(Severity::warning, shape.where,
+                    "the holes of this shape give light, too, to those who sample it");
   g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
                                  {toRender, g.sampler.get()});
   if (g.light->isDelta() || g.light->isInfinite())
