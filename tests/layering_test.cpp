@@ -51,7 +51,7 @@ const std::vector<Rule>& rules() {
 // A library whose headers start so has these users alone.
 const std::vector<Rule>& libraries() {
   static const std::vector<Rule> all{
-      {"embree", {"core/scene/accel."}},
+      {"embree", {"core/scene/accel"}},
       {"dlfcn.h", {"core/plugin/loader.cpp"}},
       {"tbb/", {"core/scene/", "core/base/parallel."}},
       {"oneapi/", {"core/scene/", "core/base/parallel."}},

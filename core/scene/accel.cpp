@@ -1,74 +1,16 @@
 #include "core/scene/accel.h"
 
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#else
-#include <embree3/rtcore.h>
-#endif
 #include <fmt/format.h>
 
 #include <atomic>
 #include <utility>
 
+#include "core/scene/accel_query.h"
 #include "core/scene/placement.h"
 
 namespace pbrt {
 
 namespace {
-
-// One call into Embree. Version 4 took the context out of the calls and put optional arguments in.
-class Query {
- public:
-#if RTC_VERSION_MAJOR >= 4
-  explicit Query(bool coherent = false) {
-    rtcInitIntersectArguments(&intersect_);
-    rtcInitOccludedArguments(&occluded_);
-    if (coherent) intersect_.flags = occluded_.flags = RTC_RAY_QUERY_FLAG_COHERENT;
-  }
-  void intersect(RTCScene s, RTCRayHit& e) {
-    rtcIntersect1(s, &e, &intersect_);
-  }
-  void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
-    rtcIntersect16(valid, s, &e, &intersect_);
-  }
-  void occluded(RTCScene s, RTCRay& e) {
-    rtcOccluded1(s, &e, &occluded_);
-  }
-  void occluded(const int* valid, RTCScene s, RTCRay8& e) {
-    rtcOccluded8(valid, s, &e, &occluded_);
-  }
-  void occluded(const int* valid, RTCScene s, RTCRay16& e) {
-    rtcOccluded16(valid, s, &e, &occluded_);
-  }
-
- private:
-  RTCIntersectArguments intersect_;
-  RTCOccludedArguments occluded_;
-#else
-  explicit Query(bool coherent = false) {
-    rtcInitIntersectContext(&context_);
-    if (coherent) context_.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-  }
-  void intersect(RTCScene s, RTCRayHit& e) {
-    rtcIntersect1(s, &context_, &e);
-  }
-  void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
-    rtcIntersect16(valid, s, &context_, &e);
-  }
-  void occluded(RTCScene s, RTCRay& e) {
-    rtcOccluded1(s, &context_, &e);
-  }
-  void occluded(const int* valid, RTCScene s, RTCRay8& e) {
-    rtcOccluded8(valid, s, &context_, &e);
-  }
-  void occluded(const int* valid, RTCScene s, RTCRay16& e) {
-    rtcOccluded16(valid, s, &context_, &e);
-  }
-
- private:
-  RTCIntersectContext context_;
-#endif
-};
 
 thread_local std::uint64_t rayCount __attribute__((tls_model("initial-exec"))) = 0;
 
@@ -87,40 +29,12 @@ void check(RTCDevice d, std::string_view doing) {
                   : fmt::format("Embree failed (error {}) at {}", static_cast<int>(error), doing));
 }
 
-constexpr float kReach = Accel::kReach;
-
-// Embree may abort at rays that reach farther (or are no numbers); they meet nothing.
-const Ray& traceable(const Ray& r, float reach) {
-  static constexpr Ray nothing{{}, 1, {0, 0, 1}, 0};  // an empty range of t
-  const Vec3 far = glm::abs(r.o) + glm::abs(r.d);
-  return far.x < reach && far.y < reach && far.z < reach ? r : nothing;
-}
-
 // How far from the origin a ray may be so that it can still be traced within an instance.
 float reachOf(const Transform& toScene) {
   const Transform toInstance = toScene.inverse();
   const double shift = glm::length(DVec3(toInstance.matrix()[3]));
-  const double reach = (kReach - shift) / std::max(1.0, stretch(toInstance));
+  const double reach = (Accel::kReach - shift) / std::max(1.0, stretch(toInstance));
   return reach > 0 ? static_cast<float>(reach) : 0;  // 0, too, if the map is singular
-}
-
-RTCRay toEmbree(const Ray& ray, float reach, float time) {
-  const Ray& r = traceable(ray, reach);
-  RTCRay e;
-  e.org_x = r.o.x, e.org_y = r.o.y, e.org_z = r.o.z;
-  e.dir_x = r.d.x, e.dir_y = r.d.y, e.dir_z = r.d.z;
-  e.tnear = r.tMin, e.tfar = r.tMax;
-  e.time = time, e.mask = ~0U, e.id = 0, e.flags = 0;
-  return e;
-}
-
-template <class Ray16>
-void setLane(Ray16& e, int i, const Ray& ray, float reach, float time) {
-  const Ray& r = traceable(ray, reach);
-  e.org_x[i] = r.o.x, e.org_y[i] = r.o.y, e.org_z[i] = r.o.z;
-  e.dir_x[i] = r.d.x, e.dir_y[i] = r.d.y, e.dir_z[i] = r.d.z;
-  e.tnear[i] = r.tMin, e.tfar[i] = r.tMax;
-  e.time[i] = time, e.mask[i] = ~0U, e.id[i] = 0, e.flags[i] = 0;
 }
 
 // Embree leaves out, without a word, what reaches farther.
@@ -134,16 +48,31 @@ Error tooFar(const Location& where, float reach, std::string_view what) {
                              what, reach)};
 }
 
+// Embree's own hits of triangles, which it asks about one by one.
+template <bool shadow>
+void filterHits(const RTCFilterFunctionNArguments* a) {
+  const auto& filter = *static_cast<const HitFilter*>(a->geometryUserPtr);
+  const auto& rays = static_cast<const QueryContext*>(a->context)->source;
+  for (unsigned i = 0; i < a->N; ++i) {
+    if (!a->valid[i]) continue;
+    const Hit hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
+                  RTCHitN_v(a->hit, a->N, i),      RTCHitN_primID(a->hit, a->N, i),
+                  RTCHitN_geomID(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0)};
+    if (!filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow)) a->valid[i] = 0;
+  }
+}
+
 }  // namespace
 
 struct Accel::UserGeometry {
-  UserGeometry(const Shape& s, const Transform& t, const Location& l)
-      : shape(&s), toObject(t.inverse()), toScene(t), where(l) {}
+  UserGeometry(const Shape& s, const Transform& t, const Location& l, const HitFilter* f)
+      : shape(&s), toObject(t.inverse()), toScene(t), where(l), filter(f) {}
 
   const Shape* shape;
   Transform toObject;
   Transform toScene;
   Location where;
+  const HitFilter* filter;
   std::atomic<bool> reachesTooFar = false;  // as Embree's threads see when they build
 
   // The ray of lane i as the shape sees it.
@@ -163,13 +92,31 @@ struct Accel::UserGeometry {
     a->bounds_o->upper_x = b.hi.x, a->bounds_o->upper_y = b.hi.y, a->bounds_o->upper_z = b.hi.z;
   }
 
+  // The nearest crossing of lane i that the filter keeps.
+  template <class Arguments>
+  std::optional<ShapeHit> nearest(const Arguments* a, RTCRayN* rays, unsigned i,
+                                  bool shadow) const {
+    ObjectRay r = ray(rays, a->N, i);
+    while (const auto hit = shape->intersect(r, a->primID)) {
+      if (!filter) return hit;
+      const Ray& whole =
+          static_cast<const QueryContext*>(a->context)->source[RTCRayN_id(rays, a->N, i)];
+      if (filter->keeps(whole,
+                        {hit->t, hit->u, hit->v, hit->primitive, a->geomID, a->context->instID[0]},
+                        shadow))
+        return hit;
+      r.tMin = std::nextafter(hit->t, kInfinity);  // t was rounded: the crossing is not beyond
+    }
+    return {};
+  }
+
   static void intersect(const RTCIntersectFunctionNArguments* a) {
     const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
     RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
     RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
     for (unsigned i = 0; i < a->N; ++i) {
       if (!a->valid[i]) continue;
-      const auto hit = g.shape->intersect(g.ray(rays, a->N, i), a->primID);
+      const auto hit = g.nearest(a, rays, i, false);
       if (!hit) continue;
       RTCRayN_tfar(rays, a->N, i) = hit->t;
       RTCHitN_u(hits, a->N, i) = hit->u;
@@ -184,7 +131,8 @@ struct Accel::UserGeometry {
     const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
     RTCRayN* rays = a->ray;
     for (unsigned i = 0; i < a->N; ++i)
-      if (a->valid[i] && g.shape->occluded(g.ray(rays, a->N, i), a->primID))
+      if (a->valid[i] && (g.filter ? g.nearest(a, rays, i, true).has_value()
+                                   : g.shape->occluded(g.ray(rays, a->N, i), a->primID)))
         RTCRayN_tfar(rays, a->N, i) = -kInfinity;
   }
 };
@@ -208,7 +156,7 @@ Accel::~Accel() {
   rtcReleaseScene(scene(scene_));
 }
 
-void Accel::add(TriangleMesh& mesh) {
+void Accel::add(TriangleMesh& mesh, const HitFilter* filter) {
   Bounds3 bounds;
   for (const Point3& p : mesh.positions) bounds.add(p);
   if (!isWithin(bounds, kReach)) throw tooFar({}, kReach, "the shape reaches");
@@ -218,14 +166,20 @@ void Accel::add(TriangleMesh& mesh) {
                              0, sizeof(Point3), mesh.positions.size());
   rtcSetSharedGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, mesh.indices.data(), 0,
                              3 * sizeof(std::uint32_t), mesh.triangles());
+  if (filter) {
+    rtcSetGeometryUserData(g, const_cast<HitFilter*>(filter));  // NOLINT: comes back as const
+    rtcSetGeometryIntersectFilterFunction(g, &filterHits<false>);
+    rtcSetGeometryOccludedFilterFunction(g, &filterHits<true>);
+  }
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(scene(scene_), g, count_++);
   rtcReleaseGeometry(g);
   check(device(device_), "a triangle mesh");
 }
 
-void Accel::add(const Shape& shape, const Transform& toScene, const Location& where) {
-  users_.push_back(std::make_unique<UserGeometry>(shape, toScene, where));
+void Accel::add(const Shape& shape, const Transform& toScene, const Location& where,
+                const HitFilter* filter) {
+  users_.push_back(std::make_unique<UserGeometry>(shape, toScene, where, filter));
   RTCGeometry g = rtcNewGeometry(device(device_), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(g, shape.primitives());
   rtcSetGeometryUserData(g, users_.back().get());
@@ -284,7 +238,7 @@ Hit Accel::intersect(const Ray& ray) const {
   RTCRayHit e;
   e.ray = toEmbree(ray, reach_, fraction(ray));
   e.hit.geomID = e.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  Query().intersect(scene(scene_), e);
+  Query({&ray}).intersect(scene(scene_), e);
   if (e.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
   return {e.ray.tfar, e.hit.u, e.hit.v, e.hit.primID, e.hit.geomID, e.hit.instID[0]};
 }
@@ -292,7 +246,7 @@ Hit Accel::intersect(const Ray& ray) const {
 bool Accel::occluded(const Ray& ray) const {
   ++rayCount;
   RTCRay e = toEmbree(ray, reach_, fraction(ray));
-  Query().occluded(scene(scene_), e);
+  Query({&ray}).occluded(scene(scene_), e);
   return e.tfar < 0;
 }
 
@@ -306,7 +260,7 @@ void Accel::intersect(std::span<const Ray* const> rays, std::span<Hit> hits) con
     if (i < n) setLane(e.ray, i, *rays[i], reach_, fraction(*rays[i]));
     e.hit.geomID[i] = e.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
   }
-  Query(coherent_).intersect(valid.data(), scene(scene_), e);
+  Query({nullptr, rays.data()}, coherent_).intersect(valid.data(), scene(scene_), e);
   for (int i = 0; i < n; ++i)
     hits[i] = e.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID
                   ? Hit{}
@@ -324,7 +278,7 @@ std::uint32_t Accel::occludedPacket(std::span<const Ray> rays) const {
     valid[i] = -1;
     setLane(e, i, rays[i], reach_, fraction(rays[i]));
   }
-  Query(coherent_).occluded(valid.data(), scene(scene_), e);
+  Query({rays.data()}, coherent_).occluded(valid.data(), scene(scene_), e);
   std::uint32_t mask = 0;
   for (int i = 0; i < n; ++i) mask |= static_cast<std::uint32_t>(e.tfar[i] < 0) << i;
   return mask;

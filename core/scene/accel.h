@@ -1,5 +1,5 @@
 #pragma once
-// The ray tree. accel.cpp is the only file that knows Embree (3 or 4).
+// The ray tree. accel.cpp, with accel_query.h, is the only file that knows Embree (3 or 4).
 
 #include <cstdint>
 #include <memory>
@@ -27,6 +27,14 @@ class AccelDevice {
   void* device_;
 };
 
+// Surfaces with holes: is asked about every hit on the way, from many threads at once.
+class HitFilter {
+ public:
+  virtual ~HitFilter() = default;
+  // Whether the surface is there for this ray of the world; `shadow`: it only asks for occlusion.
+  virtual bool keeps(const Ray& ray, const Hit& hit, bool shadow) const = 0;
+};
+
 // One tree: geometries get the identifiers 0, 1, 2, ... in the order in which they are added.
 // All that is added must outlive the tree and stay where it is. Throws Error if Embree fails, for
 // lack of memory above all.
@@ -42,9 +50,10 @@ class Accel {
 
   // Traced natively, from the mesh's own arrays. Reserves room for one vertex more, which Embree
   // may read.
-  void add(TriangleMesh& mesh);
+  void add(TriangleMesh& mesh, const HitFilter* filter = nullptr);
   // `where` is what build() complains about if the shape reaches too far.
-  void add(const Shape& shape, const Transform& toScene, const Location& where = {});
+  void add(const Shape& shape, const Transform& toScene, const Location& where = {},
+           const HitFilter* filter = nullptr);
   void add(const Accel& instance, const Transform& toScene);
   void add(const Accel& instance, const Motion& motion);
   // `times`: when motions start and end, as the rays' time has it.

@@ -139,7 +139,8 @@ void SceneBuilder::restore(const Directive& d, DirectiveKind begin) {
                                      directiveName(begin), directiveName(open)));
   if (begin != DirectiveKind::TransformBegin) {
     Attributes& outer = stack_.back().attributes;
-    if (factory_.dialect() == Dialect::v4) outer.scope = attributes_.scope;  // names are global there
+    if (factory_.dialect() == Dialect::v4)
+      outer.scope = attributes_.scope;  // names are global there
     attributes_ = std::move(outer);
     colorSpace_ = stack_.back().colorSpace;
   }

@@ -6,6 +6,21 @@
 
 namespace pbrt {
 
+namespace {
+
+// The holes of a shape, which any shape may have; none if it is whole.
+std::optional<Cutout> cutout(Params& shape, Dialect dialect) {
+  Cutout c;
+  c.alpha = shape.floatTexture("alpha", 1, "0 where the shape has a hole");
+  c.shadowAlpha = shape.floatTexture("shadowalpha", 1, "0 where only shadow rays pass");
+  c.partial = dialect > Dialect::v3;
+  for (const Textured<float>* t : {&c.alpha, &c.shadowAlpha})
+    if (t->texture() || (*t)({}) < 1) return c;
+  return {};
+}
+
+}  // namespace
+
 void SceneBuilder::addLight(const Directive& d) {
   const std::string& name = d.words.at(0);
   scene_->ownLights_.push_back(
@@ -50,8 +65,10 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   std::vector<const ParamList*> lists = {&d.params};
   if (const auto& defaults = attributes.defaultsOf(AttributeTarget::shape))
     lists.push_back(defaults.get());
-  Params params = factory_.params(plugin, name, d.where, std::move(lists));
+  Library textures(resources_, attributes.scope);
+  Params params = factory_.params(plugin, name, d.where, std::move(lists), &textures);
   g->shape = create<Shape>(plugin, params, {});
+  factory_.attempt([&] { g->cutout = cutout(params, factory_.dialect()); });
   g->material = materialFor(params, attributes);
   scene_->filters_ = scene_->filters_ || g->material->filters();
 
@@ -59,12 +76,13 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   g->flip = attributes.reverse != toGroup.swapsHandedness();
   g->toGroup = toGroup;
   g->mesh = g->shape->triangles();
+  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
   if (g->mesh) {
     transformMesh(*g->mesh, toGroup);
     g->toGroup = Transform();
-    group.accel.add(*g->mesh);
+    group.accel.add(*g->mesh, filter);
   } else {
-    group.accel.add(*g->shape, g->toGroup, d.where);
+    group.accel.add(*g->shape, g->toGroup, d.where, filter);
   }
   ++scene_->shapes_;
   if (attributes.areaLight) {
@@ -106,6 +124,9 @@ void SceneBuilder::addAreaLight(const Attributes& attributes, const Directive& s
                                 shape.words.at(0)));
     return;
   }
+  if (g.cutout)
+    factory_.report(Severity::warning, shape.where,
+                    "the holes of this shape give light, too, to those who sample it");
   const Directive& light = *attributes.areaLight;
   g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
                                  {toRender, g.sampler.get()}, nullptr,

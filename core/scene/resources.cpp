@@ -28,22 +28,6 @@ void add(std::deque<Named<T>>& all, Named<T>*& last, const std::string& name, T 
   last = &all.back();
 }
 
-// The textures of a scope, for parameters that name some.
-class Library final : public TextureLibrary {
- public:
-  Library(Resources& resources, const Scope& scope) : resources_(resources), scope_(scope) {}
-  std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) override {
-    return resources_.floatTexture(scope_, name);
-  }
-  std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) override {
-    return resources_.spectrumTexture(scope_, name);
-  }
-
- private:
-  Resources& resources_;
-  const Scope& scope_;
-};
-
 // What is seen where something could not be had.
 ParamList magenta(const std::string& name) {
   return {{ParamType::rgb, name, {}, {}, std::vector<float>{1, 0, 1}}};

@@ -81,6 +81,22 @@ class Resources {
   std::deque<Named<std::shared_ptr<MaterialDefinition>>> materials_;
 };
 
+// The textures of a scope, for parameters that name some. Both must outlive it.
+class Library final : public TextureLibrary {
+ public:
+  Library(Resources& resources, const Scope& scope) : resources_(resources), scope_(scope) {}
+  std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) override {
+    return resources_.floatTexture(scope_, name);
+  }
+  std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) override {
+    return resources_.spectrumTexture(scope_, name);
+  }
+
+ private:
+  Resources& resources_;
+  const Scope& scope_;
+};
+
 // A Material or MakeNamedMaterial statement.
 class MaterialDefinition {
  public:

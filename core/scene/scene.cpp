@@ -1,5 +1,8 @@
 #include "core/scene/scene.h"
 
+#include <bit>
+
+#include "core/base/rng.h"
 #include "core/scene/mesh.h"
 #include "core/scene/placement.h"
 
@@ -61,15 +64,13 @@ void bump(SurfaceInteraction& s, const Textured<float>& d) {
 }  // namespace
 
 SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) const {
-  const Instance* instance =
-      hit.instance == Hit::kNone ? nullptr : &instances_[hit.instance - root_.geometries.size()];
-  const Group& group = instance ? *instance->group : root_;
-  const Geometry& g = *group.geometries[hit.geometry];
+  const Instance* place = instance(hit);
+  const Geometry& g = geometry(hit);
 
   std::optional<Transform> moved;
   const float fraction = root_.accel.fraction(ray);
-  if (instance && instance->motion) moved = instance->motion->at(fraction);
-  const Transform* toRender = moved ? &*moved : instance ? &instance->toRender : nullptr;
+  if (place && place->motion) moved = place->motion->at(fraction);
+  const Transform* toRender = moved ? &*moved : place ? &place->toRender : nullptr;
 
   SurfaceInteraction s;
   if (g.mesh) {
@@ -81,14 +82,29 @@ SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) co
                       shapeHit);
   }
   if (toRender)
-    s.error +=
-        moved ? instance->motion->error(fraction, *moved, s.p) : instanceError(*toRender, s.p);
+    s.error += moved ? place->motion->error(fraction, *moved, s.p) : instanceError(*toRender, s.p);
   s.wo = -glm::normalize(ray.d);
   s.time = ray.time;
   s.material = g.material.get();
   s.light = g.light.get();
   if (ray.hasDifferentials) setFootprint(s, ray);
   return s;
+}
+
+// In between, a ray is stopped with the chance alpha. The chance is drawn from the ray and what it
+// hits (as pbrt-v4 does): the same ray always sees the same, and layers do not depend on each
+// other.
+bool Scene::keeps(const Ray& ray, const Hit& hit, bool shadow) const {
+  const Cutout& cutout = *geometry(hit).cutout;
+  const SurfaceInteraction at = surface(RayDifferential(ray), hit);
+  float alpha = cutout.alpha(at);
+  if (shadow) alpha = std::min(alpha, cutout.shadowAlpha(at));
+  if (!cutout.partial || alpha >= 1) return alpha > 0;
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  const std::uint64_t h =
+      hash(bits(ray.o.x), bits(ray.o.y), bits(ray.o.z), bits(ray.d.x), bits(ray.d.y), bits(ray.d.z),
+           hit.primitive, hit.geometry, hit.instance, glm::dot(at.n, ray.d) > 0);
+  return uniformFloat(static_cast<std::uint32_t>(h >> 32U)) < alpha;
 }
 
 Bsdf Scene::bsdf(SurfaceInteraction& at, Scratch& scratch) const {

@@ -9,10 +9,17 @@
 
 #include "core/api/integrator.h"
 #include "core/api/material.h"
+#include "core/api/texture.h"
 #include "core/scene/accel.h"
 #include "core/scene/film.h"
 
 namespace pbrt {
+
+// Where a surface is not there.
+struct Cutout {
+  Textured<float> alpha{1}, shadowAlpha{1};  // 1: there; 0: a hole; shadow rays ask for both
+  bool partial = false;  // whether it is there with the chance alpha in between, or always
+};
 
 // One shape in its place.
 struct Geometry {
@@ -21,6 +28,7 @@ struct Geometry {
   Transform toGroup;             // from object space; identity for meshes
   bool reverse = false;          // ReverseOrientation
   bool flip = false;             // whether the winding's normal points inward
+  std::optional<Cutout> cutout;  // if it has holes
   std::shared_ptr<const Material> material;  // null: no surface to shade
   std::unique_ptr<AreaSampler> sampler;      // of an area light
   std::unique_ptr<Light> light;              // the area light that it is; else null
@@ -39,7 +47,7 @@ struct Instance {
   std::optional<Motion> motion;  // if it moves: goes before toRender
 };
 
-class Scene final : public World {
+class Scene final : public World, private HitFilter {
  public:
   explicit Scene(int threads) : device_(threads), root_(device_) {}
 
@@ -70,6 +78,16 @@ class Scene final : public World {
 
  private:
   friend class SceneBuilder;
+
+  bool keeps(const Ray& ray, const Hit& hit, bool shadow) const override;
+  const Instance* instance(const Hit& hit) const {
+    return hit.instance == Hit::kNone ? nullptr
+                                      : &instances_[hit.instance - root_.geometries.size()];
+  }
+  const Geometry& geometry(const Hit& hit) const {
+    const Instance* i = instance(hit);
+    return *(i ? *i->group : root_).geometries[hit.geometry];
+  }
 
   AccelDevice device_;  // before the trees, which it must outlive
   std::vector<std::unique_ptr<Group>> objects_;

@@ -9,9 +9,11 @@
 namespace pbrt {
 namespace {
 
-// Packets are traced another way where there are no instances.
-std::unique_ptr<Scene> everything(bool instances = true) {
-  const std::string text = R"(SurfaceIntegrator "whitted" WorldBegin
+// Packets are traced another way where there are instances, and by other trees where they move.
+enum class Instances { none, resting, moving };
+
+std::unique_ptr<Scene> everything(Instances instances) {
+  const std::string text = R"(TransformTimes 0.2 0.9 SurfaceIntegrator "whitted" WorldBegin
     Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
       "point P" [-2 -1 -2  -2 -1 2  2 -1 2  2 -1 -2]
     Shape "sphere" "float radius" 0.5
@@ -19,23 +21,31 @@ std::unique_ptr<Scene> everything(bool instances = true) {
     Shape "metaballs" "point P" [-1 1 0  -0.4 1.2 0.1]
     ObjectBegin "o" Shape "sphere" "float radius" 0.4
       Shape "trianglemesh" "point P" [0 0 0  1 0 0  0 1 1]
+      ActiveTransform EndTime
       Shape "metaballs" "point P" [-1 0 0  -0.4 0.2 0.1] ObjectEnd
     )";
-  const std::string placed = R"(Translate 0 1 0 Rotate 30 1 2 3 ObjectInstance "o"
+  const std::string resting = R"(Translate 0 1 0 Rotate 30 1 2 3 ObjectInstance "o"
     Translate -1 0 1 Scale 1 2 0.5 ObjectInstance "o"
     )";
-  return test::buildText(text + (instances ? placed : "") + "WorldEnd");
+  const std::string moving =
+      R"(Translate 0.1 0.3 0 ActiveTransform EndTime Rotate 80 1 1 0 ObjectInstance "o"
+    Translate -1 1 1 Scale 1 0.3 1.4 Shape "sphere" "float radius" 0.7
+    Shape "trianglemesh" "point P" [0 0 0  -1 0 0  0 1 0.5]
+    )";
+  return test::buildText(text + (instances == Instances::none ? "" : resting) +
+                         (instances == Instances::moving ? moving : "") + "WorldEnd");
 }
 
 Ray randomRay(Rng& rng) {
   const Vec3 o = 3.F * uniformSphere({rng.uniform(), rng.uniform()});
   const Vec3 to = 3.F * Vec3(rng.uniform(), rng.uniform(), rng.uniform()) - 1.5F;
-  return {o, 0, to - o, rng.uniform() < 0.3F ? rng.uniform() : kInfinity, 0};
+  const float tMax = rng.uniform() < 0.3F ? rng.uniform() : kInfinity;
+  return {o, 0, to - o, tMax, rng.uniform()};
 }
 
-class Batches : public testing::TestWithParam<bool> {};
+class Trees : public testing::TestWithParam<Instances> {};
 
-TEST_P(Batches, OfEverySizeEqualSingleRays) {
+TEST_P(Trees, PacketsOfEverySizeEqualSingleRays) {
   const auto scene = everything(GetParam());
   Rng rng(2);
   int hits = 0, rays = 0;
@@ -56,7 +66,7 @@ TEST_P(Batches, OfEverySizeEqualSingleRays) {
       EXPECT_EQ(mask >> i & 1U, one.found());
       EXPECT_EQ(scene->occluded(batch[i]), one.found());
       if (!one.found()) continue;
-      EXPECT_NEAR(found[i].t, one.t, 1e-5F * one.t);
+      EXPECT_NEAR(found[i].t, one.t, 1e-5F * one.t + 3e-7F);
       EXPECT_EQ(found[i].geometry, one.geometry);
       EXPECT_EQ(found[i].instance, one.instance);
       EXPECT_LE(one.t, batch[i].tMax);
@@ -65,10 +75,11 @@ TEST_P(Batches, OfEverySizeEqualSingleRays) {
   EXPECT_GT(hits, rays / 4);
 }
 
-INSTANTIATE_TEST_SUITE_P(Instances, Batches, testing::Bool());
+INSTANTIATE_TEST_SUITE_P(Instances, Trees,
+                         testing::Values(Instances::none, Instances::resting, Instances::moving));
 
-TEST(Accel, SurfacesLieWhereTheirHitsAre) {
-  const auto scene = everything();
+TEST_P(Trees, SurfacesLieWhereTheirHitsAre) {
+  const auto scene = everything(GetParam());
   Rng rng(4);
   for (int i = 0; i < 20000; ++i) {
     const RayDifferential ray(randomRay(rng));
@@ -82,7 +93,7 @@ TEST(Accel, SurfacesLieWhereTheirHitsAre) {
 }
 
 TEST(Accel, CountsRaysOfEveryKind) {
-  const auto scene = everything();
+  const auto scene = everything(Instances::resting);
   Rng rng(1);
   Accel::takeRayCount();
   std::array<Ray, 16> rays;
