@@ -70,6 +70,8 @@ std::string readFile(const std::filesystem::path& path, FileKind allowed, std::s
     int got = 0;
     do {
       const std::size_t length = bytes.size();
+      if (length + kPiece > bytes.capacity())
+        bytes.reserve(std::min(2 * bytes.capacity(), longest + kPiece));
       bytes.resize(length + kPiece);
       got = gzread(file.get(), bytes.data() + length, kPiece);
       bytes.resize(length + static_cast<std::size_t>(std::max(got, 0)));

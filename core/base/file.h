@@ -11,9 +11,9 @@ namespace pbrt {
 // that the user names on the command line, as in `pbrt <(generate)`.
 enum class FileKind : std::uint8_t { regular, any };
 
-// Longer files are refused. Their text would hold some 10^9 numbers, more than fit into the memory
-// of most machines once they are a mesh with its ray tree.
-constexpr std::size_t kLongestFile = std::size_t{8} << 30;
+// Longer files are refused; geometry of that size belongs in binary files of its own. So the
+// numbers of a text can be counted in an int, and a gzipped file can state its true length.
+constexpr std::size_t kLongestFile = std::size_t{4} << 30;
 
 // All bytes of a file, unpacked if it is gzipped (told by its first bytes; RFC 1952). Throws Error,
 // Failure::io: it cannot be opened or read, is of the wrong kind, is damaged, or would be longer

@@ -32,7 +32,7 @@ class Scanner {
   void advance(std::size_t length);  // makes the next bytes the token
 
   const Source& source_;
-  std::size_t end_ = 0;     // where it ends
+  std::size_t end_ = 0;     // of the token
   std::size_t filled_ = 0;  // up to here flex was given the text
   void* flex_ = nullptr;
 };

@@ -10,8 +10,6 @@ namespace {
 
 // A parameter is looked for among all others of its statement. Real ones have a few dozen.
 constexpr std::size_t kMostParameters = 1000;
-// A number takes two bytes or more: the numbers of a list can be counted in an int.
-constexpr std::size_t kLongestList = std::size_t{1} << 32;
 
 }  // namespace
 
@@ -30,7 +28,6 @@ void Statement::time(const Location& word) {
 }
 
 void Statement::list(const Location& where) {
-  if (where.length > kLongestList) throw Error(where, "this list is longer than 4 GiB");
   value_.where = where;
   value_.numbersOnly = true;
 }

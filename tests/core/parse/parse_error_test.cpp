@@ -1,6 +1,5 @@
 // What is wrong is said in plain words, at its exact place.
 
-#include "core/parse/statement.h"
 #include "tests/core/parse/parsing.h"
 
 namespace pbrt {
@@ -111,10 +110,6 @@ TEST(ParseErrors, WhatIsTooLongOrTooMuch) {
   };
   EXPECT_EQ(errorOf(parameters(1000)), "");
   EXPECT_EQ(errorOf(parameters(1000000)), "1002:1: a statement takes at most 1000 parameters");
-  // No text of 4 GiB is needed to refuse one.
-  const Source source{"t", "["};
-  const DirectiveSink sink;
-  EXPECT_THROW(Statement(sink).list({&source, 0, (std::size_t{1} << 32) + 1}), Error);
 }
 
 TEST(ParseErrors, BytesOfNoText) {
