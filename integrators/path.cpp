@@ -97,9 +97,6 @@ class Path final : public SamplingIntegrator {
     probes_ = strategy != "uniform";
     if (strategy == "power")
       p.warn("lightsamplestrategy", "lights do not tell their power: read as \"spatial\"");
-    if (!p.integers("pixelbounds", "must be absent: the film says which part is rendered").empty())
-      p.fail("pixelbounds",
-             "the film says which part is rendered: use its cropwindow, or --pixelbounds");
   }
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,

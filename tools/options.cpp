@@ -94,6 +94,8 @@ void defineOptions(CLI::App& app, Options& o) {
       ->check(CLI::IsMember({"v1", "v2", "v3", "v4"}));
   app.add_flag("--check", o.check,
                "Read and build the scene, tell all that is wrong, render nothing");
+  app.add_flag("--format", o.format,
+               "Print the scene in a normal form that means the same, with its includes put in");
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
@@ -141,6 +143,7 @@ void finishOptions(Options& o) {
     std::copy(o.pixelBounds.begin(), o.pixelBounds.end(), o.build.pixelBounds->begin());
   }
   if (o.files.empty()) o.files = {"-"};
+  if (o.files[0] != "-") o.build.folder = std::filesystem::path(o.files[0]).parent_path();
   const Severity least = o.quiet || o.logLevel == "error" ? Severity::error
                          : o.logLevel == "verbose"        ? Severity::note
                                                           : Severity::warning;

@@ -25,6 +25,7 @@ struct Options {
   bool stats = false;
   std::string logLevel = "warning";
   bool check = false;
+  bool format = false;
   bool permissive = false;
   std::shared_ptr<Reports> reports;  // where build.report goes
   std::string pluginPath;

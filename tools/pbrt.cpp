@@ -5,10 +5,10 @@
 
 #include <chrono>
 #include <cstdio>
-#include <iostream>
-#include <iterator>
 
 #include "command.h"
+#include "core/base/file.h"
+#include "core/parse/format.h"
 #include "core/parse/parse.h"
 #include "core/scene/render.h"
 #include "listing.h"
@@ -26,7 +26,7 @@ double now() {
 void parse(Parser& parser, const std::vector<std::string>& files) {
   for (const std::string& file : files) {
     if (file == "-")
-      parser.text("<stdin>", {std::istreambuf_iterator<char>(std::cin), {}});
+      parser.text("<stdin>", readFile("/dev/stdin", FileKind::any));
     else
       parser.file(file);
   }
@@ -110,9 +110,23 @@ int judge(const Options& o) {
   return o.permissive ? 0 : static_cast<int>(Failure::scene);
 }
 
+// Tells errors of includes, where those are to be passed over.
+Reporter includes(const Options& o) {
+  return o.build.permissive ? o.build.report : Reporter();
+}
+
+int formatScene(const Options& o) {
+  Formatter formatter;
+  std::string text;
+  Parser parser([&](Directive&& d) { text += formatter.print(d); }, includes(o));
+  parse(parser, o.files);
+  fmt::print("{}", text);
+  return judge(o);
+}
+
 int check(const Options& o, PluginLoader& loader) {
   SceneReader reader(loader, o.build);
-  Parser parser([&](Directive&& d) { reader.read(std::move(d)); });
+  Parser parser([&](Directive&& d) { reader.read(std::move(d)); }, includes(o));
   parse(parser, o.files);
   const auto scene = reader.finish();
   const DetectedDialect& dialect = reader.dialect();
@@ -126,7 +140,7 @@ int check(const Options& o, PluginLoader& loader) {
 int render(const Options& o, PluginLoader& loader) {
   Times t;
   SceneReader reader(loader, o.build);
-  Parser parser([&](Directive&& d) { reader.read(std::move(d)); });
+  Parser parser([&](Directive&& d) { reader.read(std::move(d)); }, includes(o));
   parse(parser, o.files);
   const auto scene = reader.finish();
   note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
@@ -163,6 +177,8 @@ int run(const Options& o) {
                                             : describePlugin(loader, o.describe[0], o.describe[1]));
   else if (o.check)
     return check(o, loader);
+  else if (o.format)
+    return formatScene(o);
   else
     return render(o, loader);
   return 0;

@@ -29,7 +29,30 @@ std::uint8_t onSide(const Vec3& wo, const Vec3& wi, const Normal3& n, std::uint8
                                    ~kSpecular);
 }
 
+// Another lobe, scaled.
+class Scaled final : public Bxdf {
+ public:
+  Scaled(const Bxdf& lobe, const Spectrum& by) : Bxdf(lobe.flags()), lobe_(lobe), by_(by) {}
+  Spectrum f(const Vec3& wo, const Vec3& wi) const override { return by_ * lobe_.f(wo, wi); }
+  float pdf(const Vec3& wo, const Vec3& wi) const override { return lobe_.pdf(wo, wi); }
+  std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
+    auto s = lobe_.sample(wo, u);
+    if (s) s->f *= by_;
+    return s;
+  }
+
+ private:
+  const Bxdf& lobe_;
+  Spectrum by_;
+};
+
 }  // namespace
+
+void Bsdf::scale(int first, const Spectrum& by, Scratch& scratch) {
+  if (isBlack(by)) count_ = first;
+  if (by == Spectrum(1)) return;
+  for (int i = first; i < count_; ++i) lobes_[i] = place<Scaled>(scratch, *lobes_[i], by);
+}
 
 bool Bsdf::has(std::uint8_t kinds) const {
   for (int i = 0; i < count_; ++i)

@@ -61,10 +61,14 @@ class Bxdf {
 // Directions here are in render space.
 class Bsdf {
  public:
-  static constexpr int kMaxLobes = 8;
+  // No plain material adds more than kMaxLobes / 4: a mix may mix two mixes.
+  static constexpr int kMaxLobes = 24;
 
   explicit Bsdf(const SurfaceInteraction& at) : frame_(at.frame()), n_(at.n) {}
   void add(const Bxdf* lobe) { lobes_[count_++] = lobe; }
+  int count() const { return count_; }
+  // Scales what the lobes from the `first` on scatter; what has no colour left goes.
+  void scale(int first, const Spectrum& by, Scratch& scratch);
 
   // Whether any lobe has one of these kinds (e.g. kDiffuse | kGlossy: worth asking f()).
   bool has(std::uint8_t kinds) const;

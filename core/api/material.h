@@ -20,6 +20,8 @@ class Material {
   virtual void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const = 0;
   // Whether any texture in use filters by the pixel's footprint.
   virtual bool filters() const { return false; }
+  // How deep it mixes other materials: 1 if they are plain ones.
+  virtual int mixes() const { return 0; }
   // Displaces the shading normal; null: none.
   virtual const Textured<float>* bumpMap() const { return nullptr; }
 };

@@ -53,6 +53,18 @@ void Parser::parse(const Source& source, std::filesystem::path path) {
 }
 
 void Parser::include(const Location& quoted) {
+  Included file{};
+  try {
+    file = find(quoted);
+  } catch (const Error& error) {
+    if (!passOver_) throw;
+    for (const Diagnostic& d : error.diagnostics()) passOver_(d);
+    return;
+  }
+  parse(*file.source, file.path);
+}
+
+Parser::Included Parser::find(const Location& quoted) {
   if (open_.size() > kDeepestInclude)
     throw Error(quoted, fmt::format("includes are nested more than {} deep", kDeepestInclude));
   if (++includes_ > kMostIncludes)
@@ -63,6 +75,9 @@ void Parser::include(const Location& quoted) {
   if (real.empty()) {
     const std::filesystem::path fromFirst = open_.front().path.parent_path() / name;
     real = realPath(fromFirst);
+    if (real.empty() && path != fromFirst)
+      throw Error(quoted,
+                  fmt::format("there is no file {}, nor {}", path.string(), fromFirst.string()));
     if (!real.empty()) path = fromFirst;
   }
 
@@ -75,7 +90,7 @@ void Parser::include(const Location& quoted) {
   for (const Open& open : open_)
     if (&open.source == source)
       throw Error(quoted, fmt::format("{} includes itself", path.string()));
-  parse(*source, path);
+  return {source, path};
 }
 
 }  // namespace pbrt

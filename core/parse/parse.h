@@ -14,7 +14,9 @@ namespace pbrt {
 // Not thread-safe; any number of parsers may work side by side.
 class Parser {
  public:
-  explicit Parser(DirectiveSink sink) : sink_(std::move(sink)) {}
+  // With `passOver`, a file that cannot be included is reported there and left out.
+  explicit Parser(DirectiveSink sink, Reporter passOver = {})
+      : sink_(std::move(sink)), passOver_(std::move(passOver)) {}
 
   // Parses a file, perhaps gzipped, and all that it includes: found relative to the including file
   // or, as in pbrt-v3, to the first one; at most 32 deep and 100000 in all; a file that includes
@@ -33,11 +35,19 @@ class Parser {
     std::filesystem::path path;
   };
 
+  // A file to include, and the path by which it was found.
+  struct Included {
+    const Source* source;
+    std::filesystem::path path;
+  };
+
   const Source& keep(std::string name, std::string text);
+  Included find(const Location& quoted);
   void parse(const Source& source, std::filesystem::path path);
   void include(const Location& quoted);
 
   DirectiveSink sink_;
+  Reporter passOver_;
   std::deque<Source> sources_;  // addresses stay valid
   // By the path without links, as a file has many names.
   std::map<std::filesystem::path, const Source*> files_;

@@ -204,6 +204,21 @@ std::vector<std::string> Params::choices(const std::string& name,
   return values;
 }
 
+std::vector<std::shared_ptr<const Material>> Params::materials(const std::string& name,
+                                                               std::string_view meaning) {
+  declare(name, "string", "-", meaning);
+  const Param* p = find(name, kString, "string");
+  if (!p) return {};
+  if (!textures_) fail(name, "cannot name materials here");
+  std::vector<std::shared_ptr<const Material>> found;
+  for (const std::string& material : std::get<std::vector<std::string>>(p->values)) try {
+      found.push_back(textures_->material(material));
+    } catch (const Error& error) {
+      throw error.at(p->valueWhere);
+    }
+  return found;
+}
+
 void Params::refuseOthers(const std::string& name, const std::string& value,
                           std::span<const std::string_view> allowed) const {
   if (std::find(allowed.begin(), allowed.end(), value) != allowed.end()) return;

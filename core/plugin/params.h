@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "core/api/texture.h"
+#include "core/api/material.h"
 #include "core/base/sampled_spectrum.h"
 #include "core/plugin/param.h"
 
@@ -21,13 +21,14 @@ struct Declaration {
   std::string unit;  // empty: a pure number or no number
 };
 
-// Where named textures come from.
+// Where named textures and materials come from.
 class TextureLibrary {
  public:
   virtual ~TextureLibrary() = default;
   // Never null: throws Error (with "did you mean") if there is none of this name and type.
   virtual std::shared_ptr<const Texture<float>> floatTexture(const std::string& name) = 0;
   virtual std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) = 0;
+  virtual std::shared_ptr<const Material> material(const std::string& name) = 0;
 };
 
 // The parameters of one plug-in object. Every reading function throws Error with the place of the
@@ -64,6 +65,9 @@ class Params {
   std::vector<std::string> choices(const std::string& name,
                                    std::span<const std::string_view> allowed,
                                    std::string_view meaning);
+  // Materials by their names, none of them null; empty if absent.
+  std::vector<std::shared_ptr<const Material>> materials(const std::string& name,
+                                                         std::string_view meaning);
   // A file to read: looked for in the folder of the scene file that names it, in the folder given
   // to alsoSearch(), and in the working directory; with / for \ where that is not there. Empty if
   // absent; an error if it is in none of them, or is there but is a folder, a device or a pipe.

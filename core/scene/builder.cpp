@@ -193,7 +193,13 @@ bool SceneBuilder::handleOption(Directive& d) {
 
 // Those of pbrt-v4 that change the picture are read; the others are for its own insides.
 void SceneBuilder::setOption(const Directive& d) {
-  Params p("Option", d.where, {&d.params}, nullptr, options_.report);
+  ParamList list = d.params;  // v4 does not mind case, - and _ in their names
+  for (Param& option : list) {
+    std::erase_if(option.name, [](char c) { return c == '-' || c == '_'; });
+    std::ranges::transform(option.name, option.name.begin(),
+                           [](unsigned char c) { return std::tolower(c); });
+  }
+  Params p("Option", d.where, {&list}, nullptr, options_.report);
   constexpr int kMost = std::numeric_limits<int>::max();
   if (p.has("seed"))
     seed_ = static_cast<std::uint64_t>(p.integer("seed", 0, 0, kMost, "of all random numbers"));

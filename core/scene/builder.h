@@ -2,6 +2,7 @@
 // Directives in, scene out.
 
 #include <array>
+#include <filesystem>
 #include <optional>
 
 #include "core/plugin/loader.h"
@@ -24,6 +25,8 @@ struct BuildOptions {
   // Report errors of the scene and go on: what is wrong is left out, or something that can be seen
   // stands for it.
   bool permissive = false;
+  // Where the files that a scene names are looked for after the folder of the file that names them.
+  std::filesystem::path folder;
   Reporter report;
 };
 

@@ -103,7 +103,19 @@ Film::Settings SceneBuilder::filmSettings(Params& film) const {
   return settings;
 }
 
+// pbrt-v3's integrators may name the part to render, too: it becomes the film's.
+void SceneBuilder::movePixelBounds() {
+  if (!integrator_) return;
+  ParamList& from = integrator_->params;
+  const auto bounds = std::ranges::find(from, "pixelbounds", &Param::name);
+  if (bounds == from.end()) return;
+  option(film_, DirectiveKind::Film, "image");
+  film_->params.push_back(std::move(*bounds));
+  from.erase(bounds);
+}
+
 void SceneBuilder::makeFilm() {
+  movePixelBounds();
   const Directive& statement = option(film_, DirectiveKind::Film, "image");
   Params film("film/" + statement.words.at(0), statement.where, {&statement.params}, nullptr,
               options_.report);

@@ -151,6 +151,7 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV1 | kV2, sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
       {kV1 | kV2, integrator, "path", {count("maxdepth", 6)}},
       {kV1, sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
+      {kV4, camera, "spherical", {text("mapping", "equalarea")}},
       {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;

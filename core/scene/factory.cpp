@@ -61,12 +61,10 @@ Params Factory::params(const PluginInfo& plugin, const std::string& name, const 
                        std::vector<const ParamList*> lists, TextureLibrary* textures) const {
   const ParamList* defaults = &parameterDefaults(dialect_, plugin.kind, name);
   if (defaults->empty()) defaults = &parameterDefaults(dialect_, plugin.kind, plugin.name);
-  return {fmt::format("{}/{}", kindFolder(plugin.kind), plugin.name),
-          where,
-          std::move(lists),
-          textures,
-          report_,
-          defaults};
+  Params p(fmt::format("{}/{}", kindFolder(plugin.kind), plugin.name), where, std::move(lists),
+           textures, report_, defaults);
+  p.alsoSearch(folder_);
+  return p;
 }
 
 bool Factory::passOver(const Error& error) const {

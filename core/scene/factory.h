@@ -25,8 +25,14 @@ std::string shown(std::string_view name);
 // what can go on goes on.
 class Factory {
  public:
-  Factory(PluginLoader& loader, Dialect dialect, Reporter report, bool permissive)
-      : loader_(loader), dialect_(dialect), report_(std::move(report)), permissive_(permissive) {}
+  // `folder`: see BuildOptions.
+  Factory(PluginLoader& loader, Dialect dialect, Reporter report, bool permissive,
+          std::filesystem::path folder)
+      : loader_(loader),
+        dialect_(dialect),
+        report_(std::move(report)),
+        permissive_(permissive),
+        folder_(std::move(folder)) {}
 
   // `more` are parameters of lower rank that the plug-in need not read, e.g. of Attribute.
   template <class Interface>
@@ -75,6 +81,7 @@ class Factory {
   Dialect dialect_;
   Reporter report_;
   bool permissive_;
+  std::filesystem::path folder_;
   std::map<std::pair<PluginKind, std::string>, bool> translated_;  // warned about already
 };
 

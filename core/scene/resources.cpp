@@ -70,13 +70,17 @@ std::shared_ptr<const Texture<Spectrum>> Resources::spectrumTexture(const Scope&
   return build(found->value);
 }
 
+std::shared_ptr<void> Resources::nest() {
+  if (depth_ >= kDeepest)
+    throw Error(fmt::format("definitions name one another more than {} deep", kDeepest));
+  ++depth_;
+  return {nullptr, [this](void*) { --depth_; }};
+}
+
 template <class T>
 std::shared_ptr<const Texture<T>> Resources::build(TextureDefinition<T>& d) {
   if (d.built) return d.built;
-  if (depth_ >= kDeepest)
-    throw Error(d.where, fmt::format("textures name one another more than {} deep", kDeepest));
-  ++depth_;
-  const std::shared_ptr<void> leave(nullptr, [this](void*) { --depth_; });
+  const auto nested = nest();
   Library library(*this, d.scope);
   const bool made = factory_.attempt([&] {
     d.built = factory_.make<Texture<T>>(d.plugin, d.params, d.where, d.place, &library,
@@ -100,6 +104,13 @@ std::shared_ptr<MaterialDefinition> Resources::material(const Scope& scope,
   return found->value;
 }
 
+std::shared_ptr<const Material> Library::material(const std::string& name) {
+  const auto definition = resources_.material(scope_, name);
+  if (definition->isInterface())
+    throw Error(fmt::format("material \"{}\" is no surface, and cannot be mixed", shown(name)));
+  return definition->shared(resources_, scope_);
+}
+
 bool MaterialDefinition::isInterface() const {
   return plugin_.empty() || plugin_ == "none" || plugin_ == "interface";
 }
@@ -112,6 +123,7 @@ std::shared_ptr<const Material> MaterialDefinition::shared(Resources& resources,
       std::any_of(params_.begin(), params_.end(), isTexture) ||
       (attributes_ && std::any_of(attributes_->begin(), attributes_->end(), isTexture));
   if (built_ && (!usesTextures || builtIn_.sameTextures(scope))) return built_;
+  const auto nested = resources.nest();
   Library library(resources, scope);
   Factory& factory = resources.factory();
   const bool made = factory.attempt([&] {

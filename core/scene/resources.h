@@ -50,7 +50,7 @@ struct TextureDefinition {
 // Keeps all definitions of a scene, and builds those that are used.
 class Resources {
  public:
-  // Textures that name one another may be nested this deep.
+  // Definitions that name one another may be nested this deep.
   static constexpr int kDeepest = 100;
 
   explicit Resources(Factory& factory) : factory_(factory) {}
@@ -69,13 +69,15 @@ class Resources {
   std::shared_ptr<MaterialDefinition> material(const Scope& scope, const std::string& name) const;
 
   Factory& factory() { return factory_; }
+  // Definitions that name one another may be nested this deep: while it lives, one is being built.
+  std::shared_ptr<void> nest();
 
  private:
   template <class T>
   std::shared_ptr<const Texture<T>> build(TextureDefinition<T>& definition);
 
   Factory& factory_;
-  int depth_ = 0;  // of the texture being built
+  int depth_ = 0;  // of what is being built
   std::deque<Named<TextureDefinition<float>>> floats_;
   std::deque<Named<TextureDefinition<Spectrum>>> spectra_;
   std::deque<Named<std::shared_ptr<MaterialDefinition>>> materials_;
@@ -91,6 +93,7 @@ class Library final : public TextureLibrary {
   std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string& name) override {
     return resources_.spectrumTexture(scope_, name);
   }
+  std::shared_ptr<const Material> material(const std::string& name) override;
 
  private:
   Resources& resources_;

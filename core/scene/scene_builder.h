@@ -19,7 +19,7 @@ class SceneBuilder {
   SceneBuilder(PluginLoader& loader, const BuildOptions& options, const DetectedDialect& dialect)
       : options_(options),
         limit_(options.threads),
-        factory_(loader, dialect.dialect, options.report, options.permissive),
+        factory_(loader, dialect.dialect, options.report, options.permissive, options.folder),
         resources_(factory_),
         defaults_(dialectDefaults(dialect.dialect)),
         scene_(std::make_unique<Scene>(options.threads)) {
@@ -92,6 +92,7 @@ class SceneBuilder {
                    const AnimatedTransform& inner);
   const Transform& startOf(const Directive& d) const;
   void addLight(const Directive& d);
+  void movePixelBounds();
   void makeFilm();
   void makeSampler(Point2i resolution);
   void makeCamera(Point2i resolution);

@@ -56,6 +56,7 @@ Variant buildVariant(const std::filesystem::path& file, const Change& change, Pl
   into = &statements;
   variant.parser->text("--with", change.statements);
 
+  options.folder = file.parent_path();
   if (!options.dialect) options.dialect = detectDialect(scene).dialect;
   apply(statements, scene);
   const Clock building;
