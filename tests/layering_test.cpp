@@ -59,6 +59,7 @@ const std::vector<Rule>& libraries() {
       {"Imath", {"core/base/image"}},
       {"OpenEXR/", {"core/base/image"}},
       {"png.h", {"core/base/image"}},
+      {"jpeglib.h", {"textures/imagemap/jpeg.cpp"}},
       {"zlib.h", {"shapes/metaballs/particles/"}},
       {"CLI/", {"tools/"}},
   };

@@ -2,7 +2,6 @@
 
 #include "core/api/mapping.h"
 #include "core/base/noise.h"
-#include "core/base/noise.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {

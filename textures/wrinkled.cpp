@@ -1,6 +1,5 @@
 #include "core/api/mapping.h"
 #include "core/base/noise.h"
-#include "core/base/noise.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
