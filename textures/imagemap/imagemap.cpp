@@ -1,6 +1,7 @@
 #include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
+#include <compare>
 #include <map>
 #include <mutex>
 
@@ -19,38 +20,44 @@ bool isJpeg(const std::filesystem::path& file) {
   return suffix == ".jpg" || suffix == ".jpeg";
 }
 
-// The map of a file, which all textures that name it share as long as one of them lives. `gamma` as
-// in makeMipMap; none: what the kind of file has.
+// What pbrt-v3's "gamma" and pbrt-v4's "encoding" say of the curve that is undone.
+struct Decoding {
+  std::optional<float> gamma;  // as in makeMipMap; none: the sRGB curve, of code values
+  bool ofCodes = true;         // what is light already stays as it is
+  auto operator<=>(const Decoding&) const = default;
+};
+
+// The map of a file, which all textures that name it share as long as one of them lives.
 std::shared_ptr<const MipMap> sharedMipMap(const std::filesystem::path& file,
-                                           std::optional<float> gamma) {
-  using Key = std::pair<std::string, std::optional<float>>;
+                                           const Decoding& decoding) {
   static std::mutex mutex;
-  static std::map<Key, std::weak_ptr<const MipMap>> maps;
+  static std::map<std::pair<std::string, Decoding>, std::weak_ptr<const MipMap>> maps;
   const std::lock_guard lock(mutex);
-  std::weak_ptr<const MipMap>& known = maps[{std::filesystem::canonical(file).string(), gamma}];
+  std::weak_ptr<const MipMap>& known = maps[{std::filesystem::canonical(file).string(), decoding}];
   std::shared_ptr<const MipMap> map = known.lock();
   if (!map) {
     const Image image = isJpeg(file) ? readJpeg(file) : readImage(file);
-    map = makeMipMap(image, gamma.value_or(image.encoded ? kSrgbCurve : 1), file);
+    const bool decodes = image.encoded || !decoding.ofCodes;
+    map = makeMipMap(image, decodes ? decoding.gamma.value_or(kSrgbCurve) : 1, file);
     known = map;
   }
   return map;
 }
 
-// pbrt-v3's "gamma" says whether the sRGB curve is to be undone, pbrt-v4's "encoding" which curve.
-std::optional<float> readGamma(Params& p) {
-  std::optional<float> gamma;
+Decoding readDecoding(Params& p) {
+  Decoding decoding;
   if (p.has("gamma") || p.describing())
-    gamma = p.flag("gamma", true,
-                   "whether the sRGB curve is undone; by default it is for files of code values: "
-                   ".png, .tga and .jpg")
-                ? kSrgbCurve
-                : 1;
+    decoding = {p.flag("gamma", true,
+                       "whether the sRGB curve is undone; if nothing is said it is for files of "
+                       "code values: .png, .tga and .jpg")
+                    ? kSrgbCurve
+                    : 1,
+                false};
   const std::string encoding =
       p.text("encoding", "", "of files of code values: \"sRGB\", \"linear\" or \"gamma 2.2\"");
-  if (encoding.empty()) return gamma;
-  if (encoding == "sRGB") return kSrgbCurve;
-  if (encoding == "linear") return 1;
+  if (encoding.empty()) return decoding;
+  if (encoding == "sRGB") return {kSrgbCurve, true};
+  if (encoding == "linear") return {1, true};
   float power = 0;
   const char* end = encoding.data() + encoding.size();
   if (!encoding.starts_with("gamma ") ||
@@ -59,7 +66,7 @@ std::optional<float> readGamma(Params& p) {
     p.fail("encoding", fmt::format("must be \"sRGB\", \"linear\" or \"gamma\" and an exponent, as "
                                    "\"gamma 2.2\", not \"{}\"",
                                    encoding));
-  return power;
+  return {power, true};
 }
 
 Lookup readLookup(Params& p) {
@@ -98,13 +105,13 @@ class ImageMap final : public Texture<T> {
     upper_ = p.choice("origin", origins, "lower",
                       "which row of the picture is v = 0: the lowest, or the top one as in "
                       "pbrt-v1 and v2") == "upper";
-    const std::optional<float> gamma = readGamma(p);
+    const Decoding decoding = readDecoding(p);
     const std::filesystem::path file =
         p.file("filename", "the picture: .png, .jpg, .tga, .exr, .hdr or .pfm");
     if (p.describing()) return;
     p.require("filename");
     try {
-      map_ = sharedMipMap(file, gamma);
+      map_ = sharedMipMap(file, decoding);
     } catch (const Error& error) {
       p.fail("filename", "gives no picture: " + error.diagnostics().front().message);
     }

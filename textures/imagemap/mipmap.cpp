@@ -208,7 +208,9 @@ std::unique_ptr<MipMap> makeMipMap(const Image& image, float gamma,
   const auto channels = colorChannels(image, file);
   const Decoder decoder(gamma);
   const Point2i size(image.window.width(), image.window.height());
-  const auto byteOf = [](float v) { return static_cast<Byte>(std::clamp(v, 0.F, 1.F) * 255 + 0.5F); };
+  const auto byteOf = [](float v) {
+    return static_cast<Byte>(std::clamp(v, 0.F, 1.F) * 255 + 0.5F);
+  };
   const auto isByte = [&](float v) { return byteOf(v) / 255.F == v; };
   const bool bytes = image.encoded && std::ranges::all_of(channels, [&](const auto* channel) {
                        return std::ranges::all_of(*channel, isByte);
