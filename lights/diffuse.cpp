@@ -1,3 +1,4 @@
+#include "core/plugin/light_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -7,11 +8,14 @@ class Diffuse final : public Light {
   Diffuse(Params& p, const Setup& setup)
       : L_(p.emission("L", Spectrum(1), "radiance that every point emits into all directions")),
         surface_(setup.surface) {
-    L_ *= p.spectrum("scale", Spectrum(1), "multiplies L");
+    L_ *= readLightScale(p);
     twoSided_ = p.flag("twosided", false, "emits on both sides, not only on the normal's");
-    constexpr int most = 1 << 20;
-    const int n = p.integer("nsamples", 1, 1, most, "shadow rays that direct lighting takes");
-    samples_ = p.integer("samples", n, 1, most, "another name of nsamples, which it overrides");
+    const double area = surface_ ? surface_->area() : 1;
+    const auto flux = static_cast<float>(std::numbers::pi * area * (twoSided_ ? 2 : 1));
+    L_ *= readTotal(p, "power", flux, "flux of the whole shape, for L = 1", "lm");
+    samples_ = readLightSamples(p);
+    if (!p.text("filename", "", "must be absent: a picture that the surface shows").empty())
+      p.fail("filename", "is not there yet: the whole surface has one colour");
     if (!surface_ && !p.describing())
       throw Error("a \"diffuse\" light is the surface of a shape: it needs AreaLightSource");
   }

@@ -1,3 +1,4 @@
+#include "core/plugin/light_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -6,7 +7,8 @@ class Distant final : public Light {
  public:
   Distant(Params& p, const Setup& setup)
       : L_(p.emission("L", Spectrum(1), "irradiance of a surface that faces it")) {
-    L_ *= p.spectrum("scale", Spectrum(1), "multiplies L");
+    L_ *= readLightScale(p);
+    L_ *= readTotal(p, "illuminance", 1, "of a surface that faces it, for L = 1", "lx");
     const Point3 from = p.point("from", Point3(0), "with \"to\": the direction the light takes");
     const Vec3 back = from - p.point("to", {0, 0, 1}, "see \"from\"");
     if (!(lengthSquared(back) > 0)) p.fail("to", "must not be the same point as \"from\"");

@@ -1,3 +1,4 @@
+#include "core/plugin/light_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -6,7 +7,8 @@ class PointLight final : public Light {
  public:
   PointLight(Params& p, const Setup& setup)
       : intensity_(p.emission("I", Spectrum(1), "radiant intensity")) {
-    intensity_ *= p.spectrum("scale", Spectrum(1), "multiplies I");
+    intensity_ *= readLightScale(p);
+    intensity_ *= readTotal(p, "power", 4 * kPi, "flux in all directions, for I = 1", "lm");
     position_ = setup.toRender.point(p.point("from", Point3(0), "where it is"));
   }
 

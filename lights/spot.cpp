@@ -1,3 +1,4 @@
+#include "core/plugin/light_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -7,7 +8,7 @@ class Spot final : public Light {
   Spot(Params& p, const Setup& setup)
       : intensity_(p.emission("I", Spectrum(1), "radiant intensity along the axis")),
         toLight_(setup.toRender.inverseMatrix()) {
-    intensity_ *= p.spectrum("scale", Spectrum(1), "multiplies I");
+    intensity_ *= readLightScale(p);
     const float cone =
         p.inRange("coneangle", 30, 0, 180, "from the axis to where the light ends", "degrees");
     if (cone == 0) p.fail("coneangle", "must be above 0");
@@ -15,6 +16,9 @@ class Spot final : public Light {
                                   "width of the soft edge, inside the cone", "degrees");
     cosEnd_ = std::cos(radians(cone));
     cosStart_ = std::cos(radians(cone - delta));
+    // The fourth power has the mean 1/5 over the soft edge.
+    const float angle = 2 * kPi * (1 - cosStart_ + (cosStart_ - cosEnd_) / 5);
+    intensity_ *= readTotal(p, "power", angle, "flux of the whole cone, for I = 1", "lm");
 
     const Point3 from = p.point("from", Point3(0), "where it is");
     const Vec3 axis = p.point("to", {0, 0, 1}, "a point that it is aimed at") - from;

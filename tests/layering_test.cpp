@@ -60,6 +60,7 @@ const std::vector<Rule>& libraries() {
       {"OpenEXR/", {"core/base/image"}},
       {"png.h", {"core/base/image"}},
       {"zlib.h", {"core/base/file.cpp"}},
+      {"jpeglib.h", {"textures/imagemap/jpeg.cpp"}},
       {"CLI/", {"tools/"}},
   };
   return all;

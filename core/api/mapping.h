@@ -1,5 +1,5 @@
 #pragma once
-// How a two-dimensional texture is laid over a surface.
+// How a texture is laid over a surface, or a surface through a texture.
 
 #include <variant>
 
@@ -12,6 +12,17 @@ struct TexturePoint {
   Point2 st{};
   Vec2 dx{}, dy{};
 };
+
+// A point of a texture that fills space, and how it moves to the next pixel in x and in y. Double,
+// because textures go into ever finer detail.
+struct SolidPoint {
+  DPoint3 p{};
+  DVec3 dx{}, dy{};
+};
+inline SolidPoint solidPoint(const Transform& toTexture, const SurfaceInteraction& at) {
+  return {toTexture.point(DPoint3(at.p)), toTexture.vector(DVec3(at.dpdx)),
+          toTexture.vector(DVec3(at.dpdy))};
+}
 
 // The surface's own (u, v), scaled and shifted.
 struct UvMapping {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <fstream>
 
 #include "core/base/error.h"
 #include "core/base/image_format.h"
@@ -14,16 +15,84 @@ namespace pbrt {
 
 namespace {
 
-auto encoderFor(const fs::path& file) {
+std::string suffixOf(const fs::path& file) {
   std::string suffix = file.extension().string();
   for (char& c : suffix) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return suffix;
+}
+
+auto encoderFor(const fs::path& file) {
+  const std::string suffix = suffixOf(file);
   if (suffix == ".exr") return encodeExr;
   if (suffix == ".png") return encodePng;
   throw Error(fmt::format("cannot write {}: its name must end in .exr or .png", file.string()),
               Failure::io);
 }
 
+auto decoderFor(const fs::path& file) {
+  const std::string suffix = suffixOf(file);
+  if (suffix == ".png") return decodePng;
+  if (suffix == ".tga") return decodeTga;
+  if (suffix == ".hdr") return decodeHdr;
+  if (suffix == ".pfm") return decodePfm;
+  throw Error(fmt::format("cannot read {}: its name must end in .exr, .hdr, .pfm, .png or .tga",
+                          file.string()),
+              Failure::io);
+}
+
+// Clamped to [0, 1]; not a number is 0.
+float clamp01(float x) {
+  return x > 0 ? std::min(x, 1.F) : 0.F;
+}
+
 }  // namespace
+
+float encodeSrgb(float linear) {
+  const float x = clamp01(linear);
+  return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F;
+}
+
+float decodeSrgb(float code) {
+  return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
+}
+
+std::string readImageFile(const fs::path& file) {
+  std::error_code unknown;
+  std::ifstream in(file, std::ios::binary);
+  if (!in || !fs::is_regular_file(file, unknown))
+    throw Error(fmt::format("cannot read {}: it is not there, or is no file", file.string()),
+                Failure::io);
+  std::string bytes(fs::file_size(file), '\0');
+  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(in.gcount()));
+  return bytes;
+}
+
+Image blankImage(Point2i size, int channels, std::size_t bytes, std::size_t densest) {
+  if (size.x <= 0 || size.y <= 0) throw std::runtime_error("the picture has no pixels");
+  const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+  if (count / densest * static_cast<std::size_t>(channels) > bytes)
+    throw std::runtime_error("the file is too short for the size of its picture");
+  Image image;
+  image.window = {Point2i(0), size};
+  image.resolution = size;
+  image.names =
+      channels >= 3 ? std::vector<std::string>{"R", "G", "B"} : std::vector<std::string>{"Y"};
+  if (channels % 2 == 0) image.names.emplace_back("A");
+  image.channels.assign(image.names.size(), std::vector<float>(count));
+  return image;
+}
+
+Image readImage(const fs::path& file) {
+  if (suffixOf(file) == ".exr") return readExr(file);
+  const auto decode = decoderFor(file);
+  const std::string bytes = readImageFile(file);
+  try {
+    return decode(bytes);
+  } catch (const std::exception& error) {
+    throw Error(fmt::format("cannot read {}: {}", file.string(), error.what()), Failure::io);
+  }
+}
 
 const std::vector<float>* Image::channel(std::string_view name) const {
   const auto found = std::find(names.begin(), names.end(), name);

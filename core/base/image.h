@@ -21,6 +21,7 @@ struct Image {
   std::vector<std::string> names;  // "R", "G", "B", "A", ...
   std::vector<std::vector<float>> channels;  // one per name, window.width() * window.height()
   std::map<std::string, Attribute> attributes;
+  bool encoded = false;  // code values for a display (IEC 61966-2-1) from 0 to 1, not linear light
 
   // The channel of this name, or null.
   const std::vector<float>* channel(std::string_view name) const;
@@ -39,5 +40,22 @@ void checkWritable(const std::filesystem::path& file);
 
 // Reads an EXR file (scan lines or tiles, any channels, as float). Throws Error, Failure::io.
 Image readExr(const std::filesystem::path& file);
+
+// Reads by the suffix, in any case: .exr, .hdr (Radiance RGBE), .pfm, .png and .tga. All but EXR
+// give "R" "G" "B" or, if grey, "Y", and "A" if there is one. PNG and TGA give what is stored, over
+// the largest code value: `encoded`, and not multiplied by alpha. Throws Error, Failure::io.
+Image readImage(const std::filesystem::path& file);
+
+// The whole file. Throws Error, Failure::io.
+std::string readImageFile(const std::filesystem::path& file);
+
+// A picture of this size with channels "Y", "YA", "RGB" or "RGBA" (1 to 4 of them), all zero.
+// Throws std::runtime_error if a file of `bytes` cannot hold so many values: a broken header may
+// claim any size. `densest` is how many values a byte can stand for in the format.
+Image blankImage(Point2i size, int channels, std::size_t bytes, std::size_t densest);
+
+// The code values of IEC 61966-2-1:1999, section 5.2, and the linear light that they stand for.
+float encodeSrgb(float linear);  // clamped to [0, 1]
+float decodeSrgb(float code);
 
 }  // namespace pbrt

@@ -1,8 +1,10 @@
 #pragma once
-// The encoders behind writeImage. Both write to an open stream and throw std::exception with the
-// reason alone; the caller names the file and closes the stream.
+// The encoders behind writeImage and the decoders behind readImage. They write to an open stream
+// or read the bytes of a file, and throw std::exception with the reason alone; the caller names the
+// file.
 
 #include <cstdio>
+#include <string_view>
 
 #include "core/base/image.h"
 
@@ -10,5 +12,10 @@ namespace pbrt {
 
 void encodeExr(std::FILE* to, const Image& image);
 void encodePng(std::FILE* to, const Image& image);
+
+Image decodePng(std::string_view bytes);
+Image decodeTga(std::string_view bytes);
+Image decodeHdr(std::string_view bytes);
+Image decodePfm(std::string_view bytes);
 
 }  // namespace pbrt

@@ -82,5 +82,17 @@ TEST(Diffuse, NeedsASurface) {
   EXPECT_THROW(make<Light>("diffuse"), Error);
 }
 
+// A side of area A emits pi L A.
+TEST(Diffuse, Power) {
+  const DiskSampler disk(2);
+  EXPECT_FLOAT_EQ(glowing(disk, {number("power", 6)})->emitted(Point3(0), {0, 0, 1}, {0, 0, 1}).x,
+                  6 / (kPi * kPi * 4));
+  EXPECT_FLOAT_EQ(glowing(disk, {number("power", 6), flag("twosided", true), number("scale", 3)})
+                      ->emitted(Point3(0), {0, 0, 1}, {0, 0, -1})
+                      .x,
+                  18 / (2 * kPi * kPi * 4));
+  EXPECT_THROW(glowing(disk, {text("filename", "a.png")}), Error);
+}
+
 }  // namespace
 }  // namespace pbrt::test

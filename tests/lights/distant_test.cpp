@@ -40,5 +40,10 @@ TEST(Distant, RefusesNoDirection) {
   EXPECT_THROW(make<Light>("distant", {points("to", {0, 0, 0})}), Error);
 }
 
+TEST(Distant, Illuminance) {
+  const auto light = make<Light>("distant", {number("illuminance", 6), number("scale", 0.5F)});
+  EXPECT_FLOAT_EQ(irradiance(*light, Point3(0), {0, 0, -1}).x, 3);
+}
+
 }  // namespace
 }  // namespace pbrt::test

@@ -37,5 +37,11 @@ TEST(Point, NoLightArrivesWhereItIs) {
   EXPECT_EQ(make<Light>("point")->sample({0, 0, 0}, {0, 0}).pdf, 0);
 }
 
+// pbrt-v4's parameters: a number for the scale, and the flux in place of the intensity.
+TEST(Point, Power) {
+  EXPECT_NEAR(flux(*make<Light>("point", {number("power", 6), number("scale", 2)}), 3), 12, 0.02);
+  EXPECT_NEAR(flux(*make<Light>("point", {number("power", -1)}), 3), 4 * std::numbers::pi, 0.02);
+}
+
 }  // namespace
 }  // namespace pbrt::test

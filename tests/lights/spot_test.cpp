@@ -85,5 +85,13 @@ TEST(Spot, RefusesWhatIsNoCone) {
   EXPECT_NO_THROW(make<Light>("spot", {number("coneangle", 3)}));
 }
 
+TEST(Spot, Power) {
+  for (const float delta : {0.F, 40.F, 80.F}) {
+    const auto light = make<Light>(
+        "spot", {number("coneangle", 80), number("conedeltaangle", delta), number("power", 6)});
+    EXPECT_NEAR(flux(*light, 1), 6, 0.05) << delta;
+  }
+}
+
 }  // namespace
 }  // namespace pbrt::test

@@ -18,11 +18,6 @@ constexpr float kMagma[kCount][3] = {
     {0.9697F, 0.4469F, 0.3603F}, {0.9894F, 0.5579F, 0.3917F}, {0.9966F, 0.6683F, 0.4562F},
     {0.9967F, 0.7768F, 0.5410F}, {0.9924F, 0.8843F, 0.6401F}, {0.9871F, 0.9914F, 0.7495F}};
 
-// Code values to linear light (IEC 61966-2-1:1999, section 5.2).
-float decodeSrgb(float code) {
-  return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
-}
-
 }  // namespace
 
 Image heatMap(const std::vector<float>& values, int width, int height) {
