@@ -5,7 +5,7 @@ namespace pbrt {
 class Diffuse final : public Light {
  public:
   Diffuse(Params& p, const Setup& setup)
-      : L_(p.spectrum("L", Spectrum(1), "radiance that every point emits into all directions")),
+      : L_(p.emission("L", Spectrum(1), "radiance that every point emits into all directions")),
         surface_(setup.surface) {
     L_ *= p.spectrum("scale", Spectrum(1), "multiplies L");
     twoSided_ = p.flag("twosided", false, "emits on both sides, not only on the normal's");

@@ -5,7 +5,7 @@ namespace pbrt {
 class Distant final : public Light {
  public:
   Distant(Params& p, const Setup& setup)
-      : L_(p.spectrum("L", Spectrum(1), "irradiance of a surface that faces it")) {
+      : L_(p.emission("L", Spectrum(1), "irradiance of a surface that faces it")) {
     L_ *= p.spectrum("scale", Spectrum(1), "multiplies L");
     const Point3 from = p.point("from", Point3(0), "with \"to\": the direction the light takes");
     const Vec3 back = from - p.point("to", {0, 0, 1}, "see \"from\"");

@@ -5,7 +5,7 @@ namespace pbrt {
 class PointLight final : public Light {
  public:
   PointLight(Params& p, const Setup& setup)
-      : intensity_(p.spectrum("I", Spectrum(1), "radiant intensity")) {
+      : intensity_(p.emission("I", Spectrum(1), "radiant intensity")) {
     intensity_ *= p.spectrum("scale", Spectrum(1), "multiplies I");
     position_ = setup.toRender.point(p.point("from", Point3(0), "where it is"));
   }

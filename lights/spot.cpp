@@ -5,7 +5,7 @@ namespace pbrt {
 class Spot final : public Light {
  public:
   Spot(Params& p, const Setup& setup)
-      : intensity_(p.spectrum("I", Spectrum(1), "radiant intensity along the axis")),
+      : intensity_(p.emission("I", Spectrum(1), "radiant intensity along the axis")),
         toLight_(setup.toRender.inverseMatrix()) {
     intensity_ *= p.spectrum("scale", Spectrum(1), "multiplies I");
     const float cone =

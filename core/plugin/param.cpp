@@ -36,4 +36,10 @@ std::string_view typeName(ParamType type) {
   return "";
 }
 
+std::vector<float> numbersOf(const Param& param) {
+  if (const auto* ints = std::get_if<std::vector<int>>(&param.values))
+    return {ints->begin(), ints->end()};
+  return std::get<std::vector<float>>(param.values);
+}
+
 }  // namespace pbrt

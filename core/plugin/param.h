@@ -41,6 +41,9 @@ struct Param {
   std::variant<std::vector<float>, std::vector<int>, std::vector<std::string>> values;
 };
 
+// Its numbers as floats. It has floats or ints.
+std::vector<float> numbersOf(const Param& param);
+
 using ParamList = std::vector<Param>;
 
 }  // namespace pbrt

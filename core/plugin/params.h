@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/api/texture.h"
+#include "core/base/sampled_spectrum.h"
 #include "core/plugin/param.h"
 
 namespace pbrt {
@@ -63,19 +64,25 @@ class Params {
   std::vector<std::string> choices(const std::string& name,
                                    std::span<const std::string_view> allowed,
                                    std::string_view meaning);
-  // A file to read: relative to the folder of the scene file that names it, or to the working
-  // directory if the scene is no file. Empty if absent; one that is not there is an error.
+  // A file to read: looked for in the folder of the scene file that names it, in the folder given
+  // to alsoSearch(), and in the working directory; with / for \ where that is not there. Empty if
+  // absent; an error if it is in none of them, or is there but is a folder, a device or a pipe.
   std::filesystem::path file(const std::string& name, std::string_view meaning);
   Point3 point(const std::string& name, const Point3& fallback, std::string_view meaning);
   Vec3 vector(const std::string& name, const Vec3& fallback, std::string_view meaning);
 
   // -- colours, in linear Rec. 709 ----------------------------------------------------------------
-  // Of a surface: a reflectance, an index of refraction, a scale.
+  // Given as "rgb"; "xyz"; "spectrum": pairs of a wavelength in nm and a value, a file of them, or
+  // a name (core/base/named_spectra.h); "blackbody": temperatures in K, each with a scale of its
+  // peak, the sum of which counts, or one alone: luminance 1. Lamps among the names have luminance
+  // 1 too.
+  //
+  // Of a surface: a reflectance, an index of refraction, a scale (surfaceColour()).
   Spectrum spectrum(const std::string& name, const Spectrum& fallback, std::string_view meaning);
   std::optional<Spectrum> optionalSpectrum(const std::string& name, std::string_view meaning);
-  // Of a light.
+  // Of a light (emittedColour()).
   Spectrum emission(const std::string& name, const Spectrum& fallback, std::string_view meaning);
-  // A number, or what a spectrum has at the sodium D line, 589.3 nm.
+  // A number above 0, or what a spectrum has at the sodium D line, 589.3 nm.
   float refractiveIndex(const std::string& name, float fallback, std::string_view meaning);
 
   // -- values or textures ----------------------------------------------------------------------
@@ -111,6 +118,9 @@ class Params {
 
   // True while a --describe reads: values are defaults, so relations between them need not hold.
   bool describing() const { return declarations_ != nullptr; }
+  // Where file() looks after the folder of the scene file that names the file: for a scene in
+  // parts, the folder of the first.
+  void alsoSearch(std::filesystem::path folder) { alsoSearch_ = std::move(folder); }
   // The statement.
   const Location& where() const { return where_; }
   // Parameters of list `i` that nobody read, and the error that says so, with "did you mean".
@@ -125,8 +135,17 @@ class Params {
     std::vector<bool> read;
   };
 
+  enum class Colour : std::uint8_t { ofSurface, ofLight };
+  struct Search {
+    std::filesystem::path found;     // empty: none of those that were tried is a file
+    std::vector<std::string> tried;  // in their order
+    std::string notAFile;            // one of them that is there: a folder, a device ...
+  };
+
   const Param* find(const std::string& name, std::span<const ParamType> types,
                     std::string_view wanted);
+  // Whether find() would find one: given, or among the defaults.
+  bool available(const std::string& name) const;
   void refuseOthers(const std::string& name, const std::string& value,
                     std::span<const std::string_view> allowed) const;
   void declare(const std::string& name, std::string_view type, std::string fallback,
@@ -134,6 +153,13 @@ class Params {
   template <class V>
   std::vector<V> list(const std::string& name, std::span<const ParamType> types,
                       std::string_view type, std::string_view meaning, std::string_view unit = "");
+  float onlyNumber(const Param& p) const;
+  Spectrum colour(const Param& p, Colour kind) const;
+  std::vector<Spectrum> colours(const Param& p, Colour kind) const;
+  std::vector<Spectrum> blackbodies(const Param& p) const;
+  SampledSpectrum samples(const Param& p) const;
+  SampledSpectrum fileOrNamed(const Param& p, const std::string& given) const;
+  Search search(const std::string& name, const std::string& given) const;
   template <class T>
   std::shared_ptr<const Texture<T>> named(
       const Param& p,
@@ -147,6 +173,7 @@ class Params {
   const ParamList* defaults_ = nullptr;
   TextureLibrary* textures_ = nullptr;
   Reporter report_;
+  std::filesystem::path alsoSearch_;
   std::vector<std::string> known_;  // every name asked for, for "did you mean"
   std::vector<Declaration>* declarations_ = nullptr;
 };

@@ -3,6 +3,7 @@
 #include "core/plugin/params.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -110,7 +111,7 @@ TEST(Params, WrongTypesCountsAndRangesNameThePlace) {
     EXPECT_TRUE(d.message.starts_with("shapes/thing: ")) << d.message;
   };
   expect(failure([&] { p.number("s", 0, ""); }), 23, "has type \"string\" but must be \"float\"");
-  expect(failure([&] { p.spectrum("minus", {}, ""); }), 23, "must be \"rgb\"");
+  expect(failure([&] { p.spectrum("minus", {}, ""); }), 23, "must be \"rgb\" or \"spectrum\"");
   expect(failure([&] { p.integer("minus", 0, 0, 9, ""); }), 23, "must be \"integer\"");
   expect(failure([&] { p.points("s", ""); }), 23, "must be \"point3\"");
   expect(failure([&] { p.number("two", 0, ""); }), 23, "needs 1 number, not 2");
@@ -231,6 +232,32 @@ TEST(Params, FilesAreFoundFromTheScenesFolder) {
   // A scene that is no file.
   const ParamList piped = {placed(text("filename", "sub/a.ply"))};
   EXPECT_NE(failure([&] { read(piped); }).message.find(": sub/a.ply"), std::string::npos);
+
+  // As exporters on Windows write it.
+  EXPECT_EQ(read(named("sub\\a.ply", 0)), folder / "sub/a.ply");
+
+  // Another folder, after that of the scene: that of the first scene file, say.
+  std::filesystem::create_directories(folder / "main" / "sub");
+  const auto readAlso = [&](const std::string& file) {
+    const ParamList list = named(file, 0);
+    Params p = reader(list);
+    p.alsoSearch(folder / "main");
+    return p.file("filename", "");
+  };
+  std::ofstream(folder / "main" / "sub" / "a.ply") << "another";
+  std::ofstream(folder / "main" / "sub" / "c.ply") << "ply";
+  EXPECT_EQ(readAlso("sub/a.ply"), folder / "sub/a.ply");
+  EXPECT_EQ(readAlso("sub/c.ply"), folder / "main/sub/c.ply");
+  const std::string tried =
+      fmt::format("not there: {0}/sub/d, {0}/main/sub/d, sub/d", folder.string());
+  EXPECT_TRUE(failure([&] { readAlso("sub/d"); }).message.ends_with(tried));
+
+  // What is there but cannot be read as a file.
+  ASSERT_EQ(mkfifo((folder / "pipe").c_str(), 0600), 0);
+  for (const char* other : {"sub", "pipe", "/dev/null"})
+    EXPECT_NE(failure([&] { read(named(other, 0)); }).message.find("which is not a file"),
+              std::string::npos)
+        << other;
   std::filesystem::remove_all(folder);
 }
 
@@ -249,7 +276,7 @@ TEST(Params, DescribingRecordsEveryDeclaration) {
   EXPECT_EQ(found[0].meaning, "how far");
   EXPECT_EQ(found[0].unit, "m");
   EXPECT_EQ(found[1].defaultValue, "-");
-  EXPECT_EQ(found[2].type, "rgb or texture");
+  EXPECT_EQ(found[2].type, "rgb, spectrum or texture");
 }
 
 }  // namespace

@@ -1,0 +1,101 @@
+#include "core/plugin/spectrum_reader.h"
+
+#include <fast_float/fast_float.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+namespace pbrt {
+
+namespace {
+
+constexpr std::string_view kSpace = " \t\r\n\v\f";
+
+std::string readText(const std::filesystem::path& path) {
+  constexpr std::uintmax_t kLargest = std::uintmax_t{16} << 20U;
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (!error && size > kLargest)
+    throw Error(fmt::format("{} is too large for a spectrum: {} bytes", path.string(), size),
+                Failure::io);
+  std::ifstream file(path, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw Error("cannot read " + path.string(), Failure::io);
+  return text;
+}
+
+// The words of a text outside of comments.
+std::vector<Location> wordsOf(const Source& source) {
+  const std::string& text = source.text;
+  std::vector<Location> words;
+  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
+  while ((at = text.find_first_not_of(kSpace, at)) != text.npos) {
+    if (text[at] == '#') {
+      at = std::min(text.find('\n', at), text.size());
+      continue;
+    }
+    const std::size_t end =
+        std::min(text.find_first_of(std::string(kSpace) + '#', at), text.size());
+    words.push_back({&source, at, end - at});
+    at = end;
+  }
+  return words;
+}
+
+double numberOf(const Location& word) {
+  const char* begin = word.source->text.data() + word.begin;
+  const char* end = begin + word.length;
+  double value = 0;
+  const auto [next, error] = fast_float::from_chars(begin, end, value);
+  if (error != std::errc() || next != end || !std::isfinite(value))
+    throw Error(word, "expected a number: pairs of a wavelength in nm and a value");
+  return value;
+}
+
+}  // namespace
+
+void SpectrumReader::add(double nm, double value, const Location& where) {
+  if (!(nm > 0)) throw Error(where, fmt::format("a wavelength must be above 0 nm, not {}", nm));
+  if (!samples_.emplace(nm, value).second)
+    throw Error(where, fmt::format("the spectrum has two values at {} nm", nm));
+  ascending_ = ascending_ && nm > last_;
+  last_ = nm;
+}
+
+SampledSpectrum SpectrumReader::finish(const Location& where, const Reporter& report) {
+  if (samples_.empty())
+    throw Error(where, "a spectrum needs pairs of a wavelength in nm and a value");
+  const auto warn = [&](std::string text) {
+    if (report) report(diagnose(Severity::warning, where, std::move(text)));
+  };
+  if (!ascending_) warn("the wavelengths of the spectrum do not ascend; they are sorted");
+  const double first = samples_.begin()->first;
+  const double last = samples_.rbegin()->first;
+  const double visibleEnd =
+      kVisibleBegin + kVisibleStep * static_cast<double>(kColourMatching.size() - 1);
+  if (first < last && (last < kVisibleBegin || first > visibleEnd))
+    warn(
+        fmt::format("the spectrum says nothing of visible light, {} to {} nm: it runs from {} to "
+                    "{} nm",
+                    kVisibleBegin, visibleEnd, first, last));
+  return SampledSpectrum(std::move(samples_));
+}
+
+SampledSpectrum readSpectrumFile(const std::filesystem::path& path, const Reporter& report) {
+  const Source source{path.string(), readText(path)};
+  const std::vector<Location> words = wordsOf(source);
+  if (words.size() % 2 != 0) {
+    numberOf(words.back());
+    throw Error(words.back(), "a wavelength without a value ends the spectrum");
+  }
+  SpectrumReader reader;
+  for (std::size_t i = 0; i < words.size(); i += 2) {
+    const double nm = numberOf(words[i]);
+    reader.add(nm, numberOf(words[i + 1]), words[i]);
+  }
+  return reader.finish({&source, 0, 1}, report);
+}
+
+}  // namespace pbrt
