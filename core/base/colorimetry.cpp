@@ -46,7 +46,7 @@ DVec3 integrate(const SampledSpectrum& a, const SampledSpectrum& b) {
 Spectrum shown(const DVec3& xyzOfLight) {
   const Spectrum rgb = glm::max(rec709FromXyz() * xyzOfLight, 0.);
   const float y = luminance(rgb);
-  return y > 0 ? rgb * (static_cast<float>(xyzOfLight.y) / y) : Spectrum(0);
+  return y > 0 && xyzOfLight.y > 0 ? rgb * (static_cast<float>(xyzOfLight.y) / y) : Spectrum(0);
 }
 
 }  // namespace

@@ -18,9 +18,12 @@ class Coat {
         smooth_(eta_) {
     if (!(eta_ >= 1)) p.fail(prefix + "eta", "must be at least 1");
     if (!roughness_.none()) rough_.emplace(eta_);
-    for (const char* name : {"thickness", "g"}) p.floatTexture(name, 0, "has no effect");
-    for (const char* name : {"maxdepth", "nsamples"})
-      p.integer(name, 1, 0, std::numeric_limits<int>::max(), "has no effect: nothing is random");
+    constexpr std::string_view clear = "of a medium in the coat: has no effect";
+    p.floatTexture("thickness", 0.01F, clear);
+    p.floatTexture("g", 0, clear);
+    constexpr int most = std::numeric_limits<int>::max();
+    p.integer("maxdepth", 10, 0, most, "of a walk in the coat: has no effect");
+    p.integer("nsamples", 1, 0, most, "of a walk in the coat: has no effect");
     const auto albedo = p.optionalSpectrumTexture("albedo", "of a medium in the coat: left out");
     if (albedo && (albedo->texture() || !isBlack((*albedo)({}))))
       p.warn("albedo", "the coat is clear here: the medium in it is left out");

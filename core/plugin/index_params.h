@@ -1,7 +1,9 @@
 #pragma once
 // The indices of refraction that materials share.
 
+#include "core/base/colorimetry.h"
 #include "core/base/fresnel.h"
+#include "core/base/named_spectra.h"
 #include "core/plugin/params.h"
 
 namespace pbrt {
@@ -10,12 +12,12 @@ namespace pbrt {
 class RefractiveIndex {
  public:
   explicit RefractiveIndex(Params& p) {
-    const auto eta = p.optionalFloatTexture("eta", "another name of index, which it overrides");
+    const auto eta = p.optionalRefractiveIndex("eta", "another name of index, which it overrides");
     index_ = p.floatTexture("index", 1.5F,
                             "index of refraction on the side that the normal points away from, "
                             "over that of the other side");
+    if (!index_.texture() && !(index_({}) > 0)) p.fail("index", "must be above 0");
     if (eta) index_ = *eta;
-    if (!index_.texture() && !(index_({}) > 0)) p.fail(eta ? "eta" : "index", "must be above 0");
   }
 
   // Of a texture's odd value: 1, no boundary.
@@ -34,8 +36,10 @@ class RefractiveIndex {
 class Conductor {
  public:
   explicit Conductor(Params& p, const std::string& prefix = "")
-      : eta_(p.spectrumTexture(prefix + "eta", kCopperEta, "index of refraction; copper's")),
-        k_(p.spectrumTexture(prefix + "k", kCopperK, "absorption coefficient; copper's")),
+      : eta_(p.spectrumTexture(prefix + "eta", named("metal-Cu-eta"),
+                               "index of refraction; copper's")),
+        k_(p.spectrumTexture(prefix + "k", named("metal-Cu-k"),
+                             "absorption coefficient; copper's")),
         reflectance_(p.optionalSpectrumTexture(
             "reflectance", "frontal reflectance, instead of eta and k: eta = 1 with such a k")) {
     for (const char* name : {"eta", "k"})
@@ -55,9 +59,7 @@ class Conductor {
   }
 
  private:
-  // From the measured spectra of pbrt's copper, weighted by the colour matching functions.
-  static inline const Spectrum kCopperEta{0.200438F, 0.924033F, 1.102212F};
-  static inline const Spectrum kCopperK{3.912949F, 2.452848F, 2.142188F};
+  static Spectrum named(std::string_view name) { return surfaceColour(*namedSpectrum(name)); }
 
   Textured<Spectrum> eta_, k_;
   std::optional<Textured<Spectrum>> reflectance_;

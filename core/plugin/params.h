@@ -99,6 +99,9 @@ class Params {
                                                       std::string_view meaning);
   std::optional<Textured<Spectrum>> optionalSpectrumTexture(const std::string& name,
                                                             std::string_view meaning);
+  // refractiveIndex() or a texture of it, whose values may be anything.
+  std::optional<Textured<float>> optionalRefractiveIndex(const std::string& name,
+                                                         std::string_view meaning);
   template <class T>  // float or Spectrum, for textures of either kind
   Textured<T> texture(const std::string& name, float fallback, std::string_view meaning);
 

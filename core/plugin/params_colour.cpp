@@ -19,6 +19,8 @@ namespace {
 constexpr std::array kColour{ParamType::rgb, ParamType::xyz, ParamType::spectrum,
                              ParamType::blackbody};
 constexpr std::array kIndex{ParamType::number, ParamType::integer, ParamType::spectrum};
+constexpr std::array kIndexOrTexture{ParamType::number, ParamType::integer, ParamType::spectrum,
+                                     ParamType::texture};
 constexpr std::array kNumberOrTexture{ParamType::number, ParamType::integer, ParamType::texture};
 constexpr std::array kColourOrTexture{ParamType::rgb, ParamType::xyz, ParamType::spectrum,
                                       ParamType::blackbody, ParamType::texture};
@@ -163,6 +165,15 @@ float Params::refractiveIndex(const std::string& name, float fallback, std::stri
       p->type == ParamType::spectrum ? static_cast<float>(samples(*p).at(kSodium)) : onlyNumber(*p);
   if (!(index > 0)) fail(name, fmt::format("must be above 0, not {}", index));
   return index;
+}
+
+std::optional<Textured<float>> Params::optionalRefractiveIndex(const std::string& name,
+                                                               std::string_view meaning) {
+  const Param* p = find(name, kIndexOrTexture, "float\", \"spectrum\" or \"texture");
+  if (p && p->type == ParamType::texture) return floatTexture(name, 1, meaning);
+  if (p) return Textured<float>(refractiveIndex(name, 1, meaning));
+  declare(name, "float, spectrum or texture", "-", meaning);
+  return {};
 }
 
 // The texture that a parameter names, by one of the library's two functions.

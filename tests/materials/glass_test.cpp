@@ -67,6 +67,14 @@ TEST(Glass, BlackPartsAreLeftOut) {
   EXPECT_EQ(Scattering("glass", {rgb("Kt", 0, 0, 0)})->lobes(kRefracted), 0);
 }
 
+TEST(Glass, KnowsGlassesByName) {
+  const Scattering bk7(
+      "glass", {{ParamType::spectrum, "eta", {}, {}, std::vector<std::string>{"glass-BK7"}}});
+  const auto s = bk7->sample(direction(40), {0.5F, 0.5F}, kRefracted);
+  ASSERT_TRUE(s);
+  EXPECT_NEAR(s->eta, 1.5168, 1e-4);  // Schott's n_D
+}
+
 TEST(Glass, RefusesWhatItCannotBe) {
   EXPECT_THROW(make<Material>("glass", {number("index", 0)}), Error);
   EXPECT_THROW(make<Material>("glass", {number("eta", -1.5F)}), Error);

@@ -60,6 +60,7 @@ TEST(Colorimetry, LampsHaveLuminanceOne) {
   }
   EXPECT_TRUE(isBlack(colourOfLamp(constantSpectrum(0))));
   EXPECT_TRUE(isBlack(emittedColour(constantSpectrum(-1))));
+  EXPECT_TRUE(isBlack(emittedColour(SampledSpectrum(Samples{{450, 1}, {500, -2}}))));
 }
 
 // A line narrower than the tables' step, beside their wavelengths, keeps its power.
@@ -93,9 +94,9 @@ TEST(Colorimetry, NoReflectanceIsAboveItsSpectrum) {
     }
 }
 
-// Reflectances of metals, seen frontally, in linear Rec. 709, as Lagarde's feeding of Frostbite
-// (Lagarde and de Rousiers 2014, table 8) and others list them from the same measurements; gold's
-// red is 1.022 there, above what gold reflects of any light (0.98).
+// Reflectances of metals, seen frontally, in linear Rec. 709 (Akenine-Moeller, Haines and Hoffman
+// 2018, Real-Time Rendering, table 9.2); gold's red is 1.022 there, above what gold reflects of any
+// light (0.98).
 TEST(Colorimetry, MetalsReflectAsPublished) {
   struct Case {
     const char* metal;

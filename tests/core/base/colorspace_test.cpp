@@ -31,7 +31,7 @@ TEST(ColorSpace, WhiteStaysWhite) {
 
 TEST(ColorSpace, MatricesArePublishedOnes) {
   expectMatrix(toRec709(ColorSpace::srgb), {1, 0, 0, 0, 1, 0, 0, 0, 1}, 1e-12);
-  // ITU-R BT.2407-0, equation 2.
+  // ITU-R BT.2407.
   expectMatrix(toRec709(ColorSpace::rec2020),
                {1.6605, -0.5876, -0.0728, -0.1246, 1.1329, -0.0083, -0.0182, -0.1006, 1.1187},
                3e-4);

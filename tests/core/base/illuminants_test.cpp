@@ -20,7 +20,7 @@ void expectChromaticity(const SampledSpectrum& s, const Xy& expected, double tol
   EXPECT_NEAR(c.y / sum, expected.y, tolerance);
 }
 
-// CIE 15:2004, tables T.3 and T.8: to five and to four decimals.
+// CIE 15:2004, to five and to four decimals.
 TEST(Illuminants, HaveTheChromaticitiesOfTheCie) {
   expectChromaticity(illuminantA(), {0.44757, 0.40745}, 3e-5);
   expectChromaticity(illuminantD50(), {0.34567, 0.35851}, 3e-5);
@@ -35,7 +35,7 @@ TEST(Illuminants, HaveTheChromaticitiesOfTheCie) {
   expectChromaticity(constantSpectrum(1), {1. / 3, 1. / 3}, 6e-5);
 }
 
-// ISO 11664-2, table 1.
+// ISO 11664-2.
 TEST(Illuminants, HaveTheTabulatedValues) {
   const SampledSpectrum& d65 = illuminantD65();
   EXPECT_NEAR(d65.at(300), 0.0341, 1e-4);
