@@ -209,7 +209,7 @@ void Accel::addInstance(const Accel& instance, std::span<const Motion::Key> keys
   rtcSetGeometryTimeStepCount(g, static_cast<unsigned>(keys.size()));
   for (unsigned i = 0; i < keys.size(); ++i) {
     reach_ = std::min({reach_, instance.reach_, reachOf(Transform(glm::dmat4(keys[i])))});
-    rtcSetGeometryTransform(g, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &keys[i]);
+    rtcSetGeometryTransform(g, i, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, &keys[i][0].x);
   }
   rtcCommitGeometry(g);
   rtcAttachGeometryByID(scene(scene_), g, count_++);

@@ -329,6 +329,7 @@ TEST(MotionBlur, NonsenseIsAnErrorWithAPlace) {
         "WorldBegin ObjectBegin \"o\" ActiveTransform EndTime Scale 1 1 -1 Shape \"sphere\"\n"
         "ObjectEnd ObjectInstance \"o\" WorldEnd",
         "ActiveTransform EndTime Scale 1 1 -1 Camera \"perspective\" WorldBegin WorldEnd",
+        "WorldBegin ActiveTransform EndTime Scale 1e-150 1e-150 1e-150 Shape \"sphere\" WorldEnd",
         "WorldBegin ActiveTransform EndTime Scale 0 1 1 Shape \"sphere\" WorldEnd"}) {
     try {
       test::buildText(text);
