@@ -48,7 +48,7 @@ class Infinite final : public Light {
 
  private:
   Infinite(Params& p, const Setup& setup, const std::filesystem::path& file)
-      : L_(p.spectrum("L", Spectrum(1), "radiance, of which the picture takes its share")),
+      : L_(p.emission("L", Spectrum(1), "radiance, of which the picture takes its share")),
         picture_(file.empty() ? Picture(Spectrum(1)) : Picture(file)),
         map_(readMap(p, picture_)),
         toRender_(setup.toRender.matrix()),

@@ -27,7 +27,7 @@ class Projection final : public Light {
 
  private:
   Projection(Params& p, const Setup& setup, const std::filesystem::path& file)
-      : intensity_(p.spectrum("I", Spectrum(1), "radiant intensity where the picture is 1")),
+      : intensity_(p.emission("I", Spectrum(1), "radiant intensity where the picture is 1")),
         picture_(file.empty() ? Picture(Spectrum(1)) : Picture(file)),
         toLight_(setup.toRender.inverseMatrix()),
         position_(setup.toRender.point(DPoint3(0))) {

@@ -85,8 +85,14 @@ void SceneBuilder::carryOut(Directive&& d) {
 // From here on parameters are called as they are here, and colours are Rec. 709.
 void SceneBuilder::toThisGeneration(Directive& d) const {
   if (d.params.empty()) return;
-  if (const auto plugin = pluginOf(d))
+  if (const auto plugin = pluginOf(d)) {
     translateParameters(factory_.dialect(), plugin->first, plugin->second, d.params);
+    const auto map = std::ranges::find(d.params, "normalmap", &Param::name);
+    if (plugin->first == PluginKind::material && map != d.params.end()) {
+      factory_.report(Severity::warning, map->where, "normal maps are not there yet");
+      d.params.erase(map);
+    }
+  }
   if (colorSpace_ != ColorSpace::srgb)
     for (Param& p : d.params)
       if (p.type == ParamType::rgb) moveToRec709(p, colorSpace_);

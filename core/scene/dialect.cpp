@@ -126,8 +126,11 @@ Param grey(std::string name, float value) {
 Param count(std::string name, int value) {
   return {ParamType::integer, std::move(name), {}, {}, std::vector<int>{value}};
 }
-Param text(std::string name, std::string value) {
-  return {ParamType::string, std::move(name), {}, {}, std::vector<std::string>{std::move(value)}};
+Param text(std::string name, std::string value, ParamType type = ParamType::string) {
+  return {type, std::move(name), {}, {}, std::vector<std::string>{std::move(value)}};
+}
+Param flag(std::string name, bool value) {
+  return {ParamType::boolean, std::move(name), {}, {}, std::vector<int>{value ? 1 : 0}};
 }
 
 struct DefaultsRow {
@@ -144,6 +147,30 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV1, material, "mirror", {grey("Kr", 1)}},
       {kV1, material, "plastic", {grey("Kd", 1), grey("Ks", 1), text("distribution", "blinn")}},
       {kV2, material, "plastic", {text("distribution", "blinn")}},
+      {kV1 | kV2, material, "substrate", {text("distribution", "blinn")}},
+      {kV1, material, "translucent", {grey("Kd", 1), grey("Ks", 1), text("distribution", "blinn")}},
+      {kV2, material, "translucent", {text("distribution", "blinn")}},
+      {kV1, material, "uber", {grey("Kd", 1), grey("Ks", 1), text("distribution", "blinn")}},
+      {kV2, material, "uber", {text("distribution", "blinn")}},
+      // The diffuse parts of the measured paints of pbrt-v1 (Lafortune et al. 1997).
+      {kAll, material, "bluepaint", {rgb("Kd", {0.3094F, 0.3967F, 0.7084F})}},
+      {kAll, material, "clay", {rgb("Kd", {0.3836F, 0.2607F, 0.2742F})}},
+      {kAll, material, "felt", {rgb("Kd", {0.0259F, 0.0259F, 0.0259F})}},
+      {kAll, material, "primer", {rgb("Kd", {0.1182F, 0.1212F, 0.1332F})}},
+      {kAll, material, "skin", {rgb("Kd", {0.4284F, 0.3013F, 0.3311F})}},
+      {kAll,
+       material,
+       "brushedmetal",
+       {text("eta", "metal-Al-eta", ParamType::spectrum),
+        text("k", "metal-Al-k", ParamType::spectrum), number("roughness", 0.1F)}},
+      {kV4, material, "glass", {text("remapping", "v4")}},
+      {kV4, material, "metal", {text("remapping", "v4")}},
+      {kV4, material, "conductor", {text("remapping", "v4"), number("roughness", 0)}},
+      {kV4, material, "coateddiffuse", {text("remapping", "v4")}},
+      {kV4, material, "coatedconductor", {text("remapping", "v4")}},
+      {kV1 | kV2, texture, "imagemap", {text("origin", "upper"), flag("gamma", false)}},
+      {kV4, texture, "imagemap", {text("filter", "bilinear")}},
+      {kV4, light, "projection", {number("fov", 90)}},
       {kV1, camera, "perspective", {number("hither", 1e-3F)}},
       {kV1, camera, "orthographic", {number("hither", 1e-3F)}},
       {kV1, integrator, "whitted", {count("maxdepth", 6)}},
