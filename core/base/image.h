@@ -12,7 +12,7 @@
 namespace pbrt {
 
 // A metadata entry of a picture (an EXR attribute).
-using Attribute = std::variant<int, float, double, std::string, glm::dmat4>;
+using ImageAttribute = std::variant<int, float, double, std::string, glm::dmat4>;
 
 // Named float channels over a rectangle of pixels; scanline order, the rows from the top.
 struct Image {
@@ -20,7 +20,7 @@ struct Image {
   Point2i resolution{0};           // of the whole picture (display window is [0, resolution))
   std::vector<std::string> names;  // "R", "G", "B", "A", ...
   std::vector<std::vector<float>> channels;  // one per name, window.width() * window.height()
-  std::map<std::string, Attribute> attributes;
+  std::map<std::string, ImageAttribute> attributes;
   bool encoded = false;  // code values for a display (IEC 61966-2-1) from 0 to 1, not linear light
 
   // The channel of this name, or null.

@@ -51,17 +51,17 @@ struct InsertAttribute {
 
 // Sets `to` if the attribute holds a T.
 template <class T, class Convert>
-bool take(const Imf::Attribute& from, Attribute& to, Convert convert) {
+bool take(const Imf::Attribute& from, ImageAttribute& to, Convert convert) {
   const auto* typed = dynamic_cast<const Imf::TypedAttribute<T>*>(&from);
   if (typed) to = convert(typed->value());
   return typed != nullptr;
 }
 
-std::map<std::string, Attribute> attributesOf(const Imf::Header& header) {
-  std::map<std::string, Attribute> result;
+std::map<std::string, ImageAttribute> attributesOf(const Imf::Header& header) {
+  std::map<std::string, ImageAttribute> result;
   const auto same = [](const auto& v) { return v; };
   for (auto it = header.begin(); it != header.end(); ++it) {
-    Attribute value;
+    ImageAttribute value;
     if (take<int>(it.attribute(), value, same) || take<float>(it.attribute(), value, same) ||
         take<double>(it.attribute(), value, same) ||
         take<std::string>(it.attribute(), value, same) ||

@@ -72,7 +72,7 @@ class Scene final : public World, private HitFilter {
   Film& film() { return *film_; }
   const std::string& outputFile() const { return outputFile_; }
   // What the picture should say about itself: worldToCamera, worldToNDC.
-  const std::map<std::string, Attribute>& attributes() const { return attributes_; }
+  const std::map<std::string, ImageAttribute>& attributes() const { return attributes_; }
   std::size_t shapes() const { return shapes_; }
   std::size_t instances() const { return instances_.size(); }
 
@@ -102,7 +102,7 @@ class Scene final : public World, private HitFilter {
   std::unique_ptr<Integrator> integrator_;
   std::unique_ptr<Film> film_;
   std::string outputFile_;
-  std::map<std::string, Attribute> attributes_;
+  std::map<std::string, ImageAttribute> attributes_;
   std::size_t shapes_ = 0;
 };
 

@@ -21,6 +21,9 @@ class Ramps final : public TextureLibrary {
   std::shared_ptr<const Texture<Spectrum>> spectrumTexture(const std::string&) override {
     return std::make_shared<Ramp<Spectrum>>();
   }
+  std::shared_ptr<const Material> material(const std::string& name) override {
+    throw Error("no texture asks for the material " + name);
+  }
 };
 
 inline Param ramp(std::string name) {
