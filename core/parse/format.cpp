@@ -78,7 +78,7 @@ std::string parameterText(DirectiveKind kind, const Param& p, const std::string&
   // The type of an option may be missing, and pbrt-v4 itself wants it to be.
   const std::string declaration = kind == DirectiveKind::Option
                                       ? std::string(textAt(p.where))
-                                      : fmt::format("\"{} {}\"", typeName(p.type), p.name);
+                                      : fmt::format("\"{} {}\"", spelledType(p), p.name);
   const std::size_t used = indent.size() + declaration.size() + 1;
   const std::size_t left = kColumns - std::min(kColumns, used);
   const auto text = [&]() -> std::string {

@@ -198,6 +198,10 @@ std::string_view typeOf(const Value& value) {
 
 }  // namespace
 
+std::string_view spelledType(const Param& param) {
+  return param.where.source ? textAt(wordsOf(param.where).words[0]) : typeName(param.type);
+}
+
 Param makeParam(const Location& declaration, const Value& value) {
   const auto [words, count] = wordsOf(declaration);
   if (count != 2) fail(declaration, kDeclaration);

@@ -28,6 +28,10 @@ struct Wanted {
 template <class T>
 void readNumbers(const Value& value, const Wanted& wanted, std::vector<T>& numbers);
 
+// The name of a parameter's type as the scene spells it ("color", where rgb is the same); ours if it
+// comes from no text.
+std::string_view spelledType(const Param& param);
+
 // The parameter which the quoted declaration and the value give. Throws Error at the place of
 // what is wrong: the declaration, the type, one of the values, or their count.
 Param makeParam(const Location& declaration, const Value& value);

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 
+#include "core/parse/parameter.h"
+
 namespace pbrt {
 
 namespace {
@@ -49,23 +51,14 @@ std::uint8_t generationsOf(const std::array<TellTale, N>& table, const std::stri
   return kAll;
 }
 
-std::string_view declaredType(const Param& p) {
-  if (!p.where.source) return "";
-  std::string_view text = p.where.source->text;
-  text = text.substr(std::min(p.where.begin + 1, text.size()), p.where.length);
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  return text.substr(0, text.find_first_of(" \t\""));
-}
-
 bool unquotedBool(const Param& p) {
-  if (p.type != ParamType::boolean || !p.valueWhere.source) return false;
-  const std::string_view text = p.valueWhere.source->text;
-  return text.substr(p.valueWhere.begin, p.valueWhere.length).find('"') == std::string_view::npos;
+  return p.type == ParamType::boolean && p.valueWhere.source &&
+         textAt(p.valueWhere).find('"') == std::string_view::npos;
 }
 
 // By the spelling of its type; names that two generations share tell nothing.
 std::uint8_t generationsOf(const Param& p) {
-  const std::string_view type = declaredType(p);
+  const std::string_view type = spelledType(p);
   if (type == "color") return kV1 | kV2 | kV3;
   if (type == "rgb") return kV2 | kV3 | kV4;
   if (type == "point2" || type == "vector2" || type == "point3" || type == "vector3")
@@ -216,7 +209,7 @@ void DialectDetector::look(const Directive& d) {
     if (decided()) return;
     const bool plain = unquotedBool(p);
     narrow(generationsOf(p), p.where,
-           plain ? "true and false without quotes" : fmt::format("\"{}\"", declaredType(p)));
+           plain ? "true and false without quotes" : fmt::format("\"{}\"", spelledType(p)));
   }
 }
 

@@ -143,7 +143,7 @@ const Case kCases[] = {
          kSphere + "\nWorldEnd\n",
      0, "warning: the scene has no Camera"},
     {"NoShape", world(""), 0, "warning: the scene has no shapes"},
-    {"Media", world("Volume \"homogeneous\""), 3, "participating media"},
+    {"Media", world("Volume \"homogeneous\""), 0, "warning: participating media"},
     {"EmptyCrop", world(kSphere), 3, "holds no pixel", "--cropwindow 0.5,0.5,0,1 scene.pbrt"},
     {"UnknownOption", world(kSphere), 2, "--sp", "--sp 4 scene.pbrt"},
     {"ZeroSamples", world(kSphere), 2, "--spp", "--spp 0 scene.pbrt"},

@@ -86,11 +86,11 @@ TEST(Format, OneStatementALine) {
             "Transform [1 0 0 0 0 1 0 0 0 0 1 0 0.1 1e-09 1e+300 1]\n");
 }
 
-TEST(Format, TypesHaveTheirNewNames) {
+TEST(Format, TypesKeepTheSpellingOfTheirGeneration) {
   EXPECT_EQ(printed("Shape \"s\" \"point P\" [1 2 3] \"vector v\" [1 2 3] \"color c\" [1 2 3] "
                     "\"normal3 N\" [1 2 3]"),
-            "Shape \"s\" \"point3 P\" [1 2 3] \"vector3 v\" [1 2 3] \"rgb c\" [1 2 3] "
-            "\"normal N\" [1 2 3]\n");
+            "Shape \"s\" \"point P\" [1 2 3] \"vector v\" [1 2 3] \"color c\" [1 2 3] "
+            "\"normal3 N\" [1 2 3]\n");
 }
 
 TEST(Format, ValuesOfEveryType) {
@@ -131,7 +131,7 @@ TEST(Format, LongStatementsAreWrapped) {
   const std::string text = printed("AttributeBegin " + list);
   EXPECT_TRUE(
       text.starts_with("AttributeBegin\n  Shape \"mesh\"\n      \"integer indices\" [0 1 2]\n"
-                       "      \"point3 P\" [\n        0 0.125 0.25 "));
+                       "      \"point P\" [\n        0 0.125 0.25 "));
   EXPECT_TRUE(text.ends_with(" -1 -1\n      ]\n"));
   std::size_t longest = 0;
   for (std::size_t at = 0; at < text.size();) {
