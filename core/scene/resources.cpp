@@ -10,22 +10,10 @@ namespace pbrt {
 namespace {
 
 template <class T>
-Named<T>* find(Named<T>* last, std::string_view name) {
-  while (last && last->name != name) last = last->before;
-  return last;
-}
-
-template <class T>
 std::vector<std::string> namesOf(const Named<T>* last) {
   std::vector<std::string> names;
   for (; last; last = last->before) names.push_back(last->name);
   return names;
-}
-
-template <class T>
-void add(std::deque<Named<T>>& all, Named<T>*& last, const std::string& name, T value) {
-  all.push_back({name, std::move(value), last});
-  last = &all.back();
 }
 
 // What is seen where something could not be had.
@@ -46,27 +34,29 @@ Error noTexture(std::string_view name, bool isFloat, bool otherKind,
 }  // namespace
 
 void Resources::define(Scope& scope, const std::string& name, TextureDefinition<float> d) {
-  add(floats_, scope.floats, name, std::move(d));
+  floats_.add(scope.floats, name, std::move(d));
 }
 void Resources::define(Scope& scope, const std::string& name, TextureDefinition<Spectrum> d) {
-  add(spectra_, scope.spectra, name, std::move(d));
+  spectra_.add(scope.spectra, name, std::move(d));
 }
 void Resources::define(Scope& scope, const std::string& name,
                        std::shared_ptr<MaterialDefinition> material) {
-  add(materials_, scope.materials, name, std::move(material));
+  materials_.add(scope.materials, name, std::move(material));
 }
 
 std::shared_ptr<const Texture<float>> Resources::floatTexture(const Scope& scope,
                                                               const std::string& name) {
-  auto* found = find(scope.floats, name);
-  if (!found) throw noTexture(name, true, find(scope.spectra, name), namesOf(scope.floats));
+  auto* found = floats_.find(scope.floats, name);
+  if (!found)
+    throw noTexture(name, true, spectra_.find(scope.spectra, name), namesOf(scope.floats));
   return build(found->value);
 }
 
 std::shared_ptr<const Texture<Spectrum>> Resources::spectrumTexture(const Scope& scope,
                                                                     const std::string& name) {
-  auto* found = find(scope.spectra, name);
-  if (!found) throw noTexture(name, false, find(scope.floats, name), namesOf(scope.spectra));
+  auto* found = spectra_.find(scope.spectra, name);
+  if (!found)
+    throw noTexture(name, false, floats_.find(scope.floats, name), namesOf(scope.spectra));
   return build(found->value);
 }
 
@@ -97,7 +87,7 @@ std::shared_ptr<const Texture<T>> Resources::build(TextureDefinition<T>& d) {
 
 std::shared_ptr<MaterialDefinition> Resources::material(const Scope& scope,
                                                         const std::string& name) const {
-  const auto* found = find(scope.materials, name);
+  const auto* found = materials_.find(scope.materials, name);
   if (!found)
     throw Error(fmt::format("there is no named material \"{}\"{}", shown(name),
                             didYouMean(name, namesOf(scope.materials))));

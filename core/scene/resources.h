@@ -1,24 +1,16 @@
 #pragma once
 // What a scene defines by name and builds only when something uses it: textures and materials.
 
-#include <deque>
 #include <memory>
 #include <optional>
 
 #include "core/api/material.h"
 #include "core/scene/factory.h"
+#include "core/scene/names.h"
 
 namespace pbrt {
 
 class MaterialDefinition;
-
-// A definition with a name, and the one before it in the same block or in those around it.
-template <class T>
-struct Named {
-  std::string name;
-  T value;
-  Named* before = nullptr;
-};
 
 // A Texture statement.
 template <class T>
@@ -78,9 +70,9 @@ class Resources {
 
   Factory& factory_;
   int depth_ = 0;  // of what is being built
-  std::deque<Named<TextureDefinition<float>>> floats_;
-  std::deque<Named<TextureDefinition<Spectrum>>> spectra_;
-  std::deque<Named<std::shared_ptr<MaterialDefinition>>> materials_;
+  NamedList<TextureDefinition<float>> floats_;
+  NamedList<TextureDefinition<Spectrum>> spectra_;
+  NamedList<std::shared_ptr<MaterialDefinition>> materials_;
 };
 
 // The textures of a scope, for parameters that name some. Both must outlive it.
