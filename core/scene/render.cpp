@@ -90,7 +90,8 @@ struct TileJob {
           control.badSamples.fetch_add(1, std::memory_order_relaxed);
         }
       }
-      film.add(tile, worker.samples[i].film, L, hit.found() ? 1 : 0);
+      // As in pbrt-v1: a sky that shines is no hole in the picture.
+      film.add(tile, worker.samples[i].film, L, hit.found() || !isBlack(L) ? 1 : 0);
       if (hit.found() && film.stores(kOfSurface)) {
         const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
         film.add(tile, pixel, firstSurface(camera.ray, hit, worker.scratch));

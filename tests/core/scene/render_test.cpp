@@ -120,6 +120,20 @@ TEST(Render, ACropIsAPartOfTheWhole) {
             << x << ' ' << y << ' ' << c;
 }
 
+// As in pbrt-v1; else a picture for the screen, which divides by alpha, is too bright where
+// something covers a part of the sky.
+TEST(Render, ASkyThatShinesIsNoHole) {
+  const auto alpha = [](const std::string& sky) {
+    const Image image = test::renderText(
+        "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 2\n"
+        "Sampler \"random\" \"integer pixelsamples\" 1 Integrator \"path\" WorldBegin " +
+        sky + "\nWorldEnd");
+    return image.channel("A")->at(0);
+  };
+  EXPECT_EQ(alpha("LightSource \"infinite\""), 1);
+  EXPECT_EQ(alpha("LightSource \"point\""), 0);
+}
+
 TEST(Render, StopsWhenToldTo) {
   const auto scene = test::buildText(everything("random", "whitted"));
   RenderControl control;
