@@ -128,6 +128,8 @@ class Params {
   // Where file() looks after the folder of the scene file that names the file: for a scene in
   // parts, the folder of the first.
   void alsoSearch(std::filesystem::path folder) { alsoSearch_ = std::move(folder); }
+  // From here on emission() brings a "spectrum" to luminance 1, as pbrt-v4 does.
+  void bringLightsToLuminanceOne() { unitLights_ = true; }
   // The statement.
   const Location& where() const { return where_; }
   // Parameters of list `i` that nobody read, and the error that says so, with "did you mean".
@@ -181,6 +183,7 @@ class Params {
   TextureLibrary* textures_ = nullptr;
   Reporter report_;
   std::filesystem::path alsoSearch_;
+  bool unitLights_ = false;
   std::vector<std::string> known_;  // every name asked for, for "did you mean"
   std::vector<Declaration>* declarations_ = nullptr;
 };

@@ -147,7 +147,10 @@ Spectrum Params::emission(const std::string& name, const Spectrum& fallback,
                           std::string_view meaning) {
   declare(name, kColourType, show(fallback), meaning);
   const Param* p = find(name, kColour, kColourWanted);
-  return p ? colour(*p, Colour::ofLight) : fallback;
+  if (!p) return fallback;
+  const Spectrum L = colour(*p, Colour::ofLight);
+  const bool bring = unitLights_ && p->type == ParamType::spectrum && luminance(L) > 0;
+  return bring ? L / luminance(L) : L;
 }
 
 std::vector<Spectrum> Params::spectra(const std::string& name, std::string_view meaning) {

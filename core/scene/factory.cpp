@@ -64,6 +64,7 @@ Params Factory::params(const PluginInfo& plugin, const std::string& name, const 
   Params p(fmt::format("{}/{}", kindFolder(plugin.kind), plugin.name), where, std::move(lists),
            textures, report_, defaults);
   p.alsoSearch(folder_);
+  if (dialect_ == Dialect::v4) p.bringLightsToLuminanceOne();
   return p;
 }
 

@@ -84,6 +84,21 @@ TEST(V4, AttributeOfLightsAndTextures) {
                {0, 0, 1});
 }
 
+TEST(V4, ALightGivenByASpectrumHasLuminanceOne) {
+  const std::string lamp =
+      "LightSource \"distant\" \"spectrum L\" [300 7 800 7] \"float scale\" 2 "
+      "\"point3 from\" [0 0 1] \"point3 to\" [0 0 0]\n";
+  std::string text = v4("Material \"diffuse\" \"rgb reflectance\" [1 1 1]\n" + kDisk);
+  const std::size_t at = text.find("LightSource"), end = text.find('\n', at) + 1;
+  text.replace(at, end - at, lamp);
+  EXPECT_NEAR(luminance(seen(text)), 2, 1e-3);
+  BuildOptions v3;
+  v3.dialect = Dialect::v3;
+  const Image image = test::renderText(text, 0, v3);
+  EXPECT_NEAR(luminance({image.channels[0][0], image.channels[1][0], image.channels[2][0]}) * kPi,
+              14, 1e-2);
+}
+
 TEST(V4, NamesAreGlobal) {
   expectColour(seen(v4("AttributeBegin MakeNamedMaterial \"m\" \"string type\" \"diffuse\" "
                        "\"rgb reflectance\" [1 0 0] AttributeEnd NamedMaterial \"m\"\n" +
