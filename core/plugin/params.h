@@ -128,6 +128,10 @@ class Params {
   // Where file() looks after the folder of the scene file that names the file: for a scene in
   // parts, the folder of the first.
   void alsoSearch(std::filesystem::path folder) { alsoSearch_ = std::move(folder); }
+  // More names that a scene may have meant by one that nobody read.
+  void alsoKnown(const std::vector<std::string>& names) {
+    known_.insert(known_.end(), names.begin(), names.end());
+  }
   // The statement.
   const Location& where() const { return where_; }
   // Parameters of list `i` that nobody read, and the error that says so, with "did you mean".
@@ -147,6 +151,7 @@ class Params {
     std::filesystem::path found;     // empty: none of those that were tried is a file
     std::vector<std::string> tried;  // in their order
     std::string notAFile;            // one of them that is there: a folder, a device ...
+    std::string allTried() const;    // for a message
   };
 
   const Param* find(const std::string& name, std::span<const ParamType> types,
