@@ -116,6 +116,12 @@ std::string_view textAt(const Location& where) {
   return std::string_view(where.source->text).substr(where.begin, where.length);
 }
 
+std::string_view declaredType(const Param& param) {
+  if (!param.where.source) return "";
+  const auto [words, count] = wordsOf(param.where);
+  return count == 2 ? textAt(words[0]) : "";
+}
+
 std::string unquote(const Location& quoted) {
   constexpr std::string_view kEscapes = "\"\\'ntrbf";
   constexpr std::string_view kMeant = "\"\\'\n\t\r\b\f";

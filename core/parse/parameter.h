@@ -15,6 +15,10 @@ struct Value {
 // The bytes of a place.
 std::string_view textAt(const Location& where);
 
+// The type of a parameter as the scene writes it, "color" or "rgb"; empty if no scene did. The text
+// that the parameter came from must still be there.
+std::string_view declaredType(const Param& param);
+
 // The text of a quoted string, its escapes (\" \\ \' \n \t \r \b \f) resolved.
 std::string unquote(const Location& quoted);
 

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 
+#include "core/parse/parameter.h"
+
 namespace pbrt {
 
 namespace {
@@ -47,14 +49,6 @@ std::uint8_t generationsOf(const std::array<TellTale, N>& table, const std::stri
     if (!name.empty() && fmt::format(" {} ", row.names).find(' ' + name + ' ') != std::string::npos)
       return row.generations;
   return kAll;
-}
-
-std::string_view declaredType(const Param& p) {
-  if (!p.where.source) return "";
-  std::string_view text = p.where.source->text;
-  text = text.substr(std::min(p.where.begin + 1, text.size()), p.where.length);
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  return text.substr(0, text.find_first_of(" \t\""));
 }
 
 bool unquotedBool(const Param& p) {
