@@ -22,7 +22,10 @@ int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug
     return app.exit(error) == 0 ? 0 : static_cast<int>(Failure::usage);
   }
   try {
-    return body();
+    const int code = body();
+    if (std::fflush(stdout) == 0) return code;
+    fmt::print(stderr, "error: cannot write to standard output\n");
+    return static_cast<int>(Failure::io);
   } catch (const Error& error) {
     for (const Diagnostic& d : error.diagnostics()) fmt::print(stderr, "{}\n", format(d));
     return static_cast<int>(error.failure());

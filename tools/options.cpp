@@ -92,10 +92,11 @@ void defineOptions(CLI::App& app, Options& o) {
       ->allow_extra_args(false);
   app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3, v4")
       ->check(CLI::IsMember({"v1", "v2", "v3", "v4"}));
-  app.add_flag("--check", o.check,
-               "Read and build the scene, tell all that is wrong, render nothing");
+  auto* check = app.add_flag("--check", o.check,
+                             "Read and build the scene, tell all that is wrong, render nothing");
   app.add_flag("--format", o.format,
-               "Print the scene in a normal form that means the same, with its includes put in");
+               "Print the scene in a normal form that means the same, with its includes put in")
+      ->excludes(check);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
@@ -125,7 +126,7 @@ std::vector<std::string> words(int argc, char** argv) {
 
 void finishOptions(Options& o) {
   if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
-  if (o.describe.size() == 1 && o.describe[0] != "all")
+  if (!o.describe.empty() && (o.describe.size() == 1) != (o.describe[0] == "all"))
     throw Error("--describe takes KIND NAME, or all", Failure::usage);
   if (o.samplesPerPixel) o.build.samplesPerPixel = o.samplesPerPixel;
   if (!o.samples.empty()) readRange(o.samples, o.goal);

@@ -1,5 +1,8 @@
 #include "core/api/lobes_coat.h"
 
+#include <map>
+#include <mutex>
+
 namespace pbrt {
 
 namespace {
@@ -59,6 +62,16 @@ RoughCoatTable::RoughCoatTable(float eta) : smooth_(eta) {
       sum += albedo(back, -atCosine(std::sqrt((static_cast<float>(j) + 0.5F) / n)));
     inside_[i] = i == 0 ? smooth_.insideReflectance() : static_cast<float>(sum / n);
   }
+}
+
+std::shared_ptr<const RoughCoatTable> RoughCoatTable::shared(float eta) {
+  static std::mutex mutex;
+  static std::map<float, std::weak_ptr<const RoughCoatTable>> tables;
+  const std::lock_guard lock(mutex);
+  std::weak_ptr<const RoughCoatTable>& known = tables[eta];
+  std::shared_ptr<const RoughCoatTable> table = known.lock();
+  if (!table) known = table = std::make_shared<const RoughCoatTable>(eta);
+  return table;
 }
 
 CoatBoundary RoughCoatTable::boundary(float alpha) const {

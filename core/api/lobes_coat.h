@@ -2,6 +2,7 @@
 // What lies under a clear coat.
 
 #include <array>
+#include <memory>
 
 #include "core/api/lobes_microfacet.h"
 
@@ -39,6 +40,9 @@ class CoatBoundary {
 class RoughCoatTable {
  public:
   explicit RoughCoatTable(float eta);
+  // The table for eta, which all who ask for it share as long as one of them lives: to fill it
+  // takes milliseconds, and most coats of a scene have the same.
+  static std::shared_ptr<const RoughCoatTable> shared(float eta);
 
   // With facets of the width alpha (for two widths their geometric mean); 0 is smooth. It refers to
   // this table, which must outlive it.

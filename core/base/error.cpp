@@ -133,6 +133,10 @@ Error Error::at(const Location& where) const {
   return Error(std::move(placed), failure_);
 }
 
+std::string shown(std::string_view name, std::size_t most) {
+  return std::string(name.substr(0, most)) + (name.size() > most ? "..." : "");
+}
+
 std::string_view closest(std::string_view name, std::span<const std::string> candidates) {
   std::string_view best;
   std::size_t allowed = name.size() / 3;

@@ -70,6 +70,9 @@ class Error : public std::runtime_error {
   Failure failure_;
 };
 
+// A name for a message: cut if it is very long, longer than `most` bytes.
+std::string shown(std::string_view name, std::size_t most = 60);
+
 // The candidate that `name` was probably meant to be: within a third of its length in edits
 // (insert, delete, replace, swap of neighbours; case is free). Empty if none is near.
 std::string_view closest(std::string_view name, std::span<const std::string> candidates);

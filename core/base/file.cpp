@@ -16,12 +16,13 @@
 #include "core/base/error.h"
 
 namespace pbrt {
-namespace {
 
 std::size_t halfOfMemory() {
   return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
          static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 2;
 }
+
+namespace {
 
 // How many bytes to expect. A gzipped file says at its end what it holds, modulo 2^32 (RFC 1952,
 // section 2.3.1); deflate packs no more than 1032 bytes into one.
@@ -76,7 +77,7 @@ std::string readFile(const std::filesystem::path& path, FileKind allowed, std::s
       got = gzread(file.get(), bytes.data() + length, kPiece);
       bytes.resize(length + static_cast<std::size_t>(std::max(got, 0)));
       if (bytes.size() > longest)
-        fail(fmt::format("it is longer than {:.3g} GiB{}", static_cast<double>(longest) / 0x1p30,
+        fail(fmt::format("it is longer than {:.0f} MiB{}", static_cast<double>(longest) / 0x1p20,
                          packed ? " when unpacked" : ""));
     } while (got == static_cast<int>(kPiece));
   } catch (const std::bad_alloc&) {
@@ -88,6 +89,7 @@ std::string readFile(const std::filesystem::path& path, FileKind allowed, std::s
   if (code == Z_ERRNO) fail(std::strerror(errno));
   if (code == Z_BUF_ERROR) fail("the packed data end too early");
   if (code < 0) fail("the packed data are damaged");
+  if (bytes.size() < kPiece) bytes.shrink_to_fit();  // a scene may consist of many small files
   return bytes;
 }
 

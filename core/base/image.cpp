@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <fstream>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 #include "core/base/image_format.h"
 #include "core/base/replacement.h"
 
@@ -21,12 +21,22 @@ std::string suffixOf(const fs::path& file) {
   return suffix;
 }
 
+bool isWritable(const std::string& suffix) {
+  return suffix == ".exr" || suffix == ".png";
+}
+
+// What a scene calls its picture may be a link that came with it: no other file is overwritten.
 auto encoderFor(const fs::path& file) {
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(fmt::format("cannot write {}: {} must end in .exr or .png", file.string(), reason),
+                Failure::io);
+  };
   const std::string suffix = suffixOf(file);
-  if (suffix == ".exr") return encodeExr;
-  if (suffix == ".png") return encodePng;
-  throw Error(fmt::format("cannot write {}: its name must end in .exr or .png", file.string()),
-              Failure::io);
+  if (!isWritable(suffix)) refuse("its name");
+  const fs::path target = throughLinks(file);
+  if (!isWritable(suffixOf(target)))
+    refuse(fmt::format("it is a link to {}, whose name", target.string()));
+  return suffix == ".exr" ? encodeExr : encodePng;
 }
 
 auto decoderFor(const fs::path& file) {
@@ -56,23 +66,17 @@ float decodeSrgb(float code) {
   return code <= 0.04045F ? code / 12.92F : std::pow((code + 0.055F) / 1.055F, 2.4F);
 }
 
-std::string readImageFile(const fs::path& file) {
-  std::error_code unknown;
-  std::ifstream in(file, std::ios::binary);
-  if (!in || !fs::is_regular_file(file, unknown))
-    throw Error(fmt::format("cannot read {}: it is not there, or is no file", file.string()),
-                Failure::io);
-  std::string bytes(fs::file_size(file), '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+void checkRoom(std::size_t values, std::size_t bytes, std::size_t densest) {
+  if (values / densest > bytes)
+    throw std::runtime_error("the file is too short for the size of its picture");
+  if (values > halfOfMemory() / sizeof(float))
+    throw std::runtime_error("the picture is too large for the memory of this machine");
 }
 
 Image blankImage(Point2i size, int channels, std::size_t bytes, std::size_t densest) {
   if (size.x <= 0 || size.y <= 0) throw std::runtime_error("the picture has no pixels");
   const std::size_t count = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
-  if (count / densest * static_cast<std::size_t>(channels) > bytes)
-    throw std::runtime_error("the file is too short for the size of its picture");
+  checkRoom(count * static_cast<std::size_t>(channels), bytes, densest);
   Image image;
   image.window = {Point2i(0), size};
   image.resolution = size;
@@ -86,7 +90,7 @@ Image blankImage(Point2i size, int channels, std::size_t bytes, std::size_t dens
 Image readImage(const fs::path& file) {
   if (suffixOf(file) == ".exr") return readExr(file);
   const auto decode = decoderFor(file);
-  const std::string bytes = readImageFile(file);
+  const std::string bytes = readFile(file);
   try {
     return decode(bytes);
   } catch (const std::exception& error) {

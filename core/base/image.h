@@ -31,11 +31,13 @@ struct Image {
 
 // Writes by the suffix: .exr (float or half channels, all of them, with attributes) or .png
 // (8-bit sRGB, with alpha if there is "A" that is not 1 everywhere). The file appears whole or
-// not at all: it is written beside its place and renamed. Throws Error, Failure::io.
+// not at all: it is written beside its place and renamed. A link is followed to a file whose name
+// ends in one of the two, too. Throws Error, Failure::io.
 void writeImage(const std::filesystem::path& file, const Image& image);
 
 // Throws Error, Failure::io, if the suffix is not one that writeImage knows, the folder is not
-// there or cannot be written to, or the path is a folder: ask before a long render.
+// there or cannot be written to, or the path is a folder, a device or a pipe: ask before a long
+// render.
 void checkWritable(const std::filesystem::path& file);
 
 // Reads an EXR file (scan lines or tiles, any channels, as float). Throws Error, Failure::io.
@@ -46,12 +48,9 @@ Image readExr(const std::filesystem::path& file);
 // the largest code value: `encoded`, and not multiplied by alpha. Throws Error, Failure::io.
 Image readImage(const std::filesystem::path& file);
 
-// The whole file. Throws Error, Failure::io.
-std::string readImageFile(const std::filesystem::path& file);
-
 // A picture of this size with channels "Y", "YA", "RGB" or "RGBA" (1 to 4 of them), all zero.
-// Throws std::runtime_error if a file of `bytes` cannot hold so many values: a broken header may
-// claim any size. `densest` is how many values a byte can stand for in the format.
+// Throws std::runtime_error if a file of `bytes` cannot hold so many values, or memory: a broken
+// header may claim any size. `densest` is how many values a byte can stand for in the format.
 Image blankImage(Point2i size, int channels, std::size_t bytes, std::size_t densest);
 
 // The code values of IEC 61966-2-1:1999, section 5.2, and the linear light that they stand for.

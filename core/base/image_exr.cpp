@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 #include "core/base/image_format.h"
 
 namespace pbrt {
@@ -72,9 +73,9 @@ std::map<std::string, ImageAttribute> attributesOf(const Imf::Header& header) {
 }
 
 // OpenEXR over a C stream, so that each failed write is known with its reason.
-class Stream : public Imf::OStream {
+class OutStream : public Imf::OStream {
  public:
-  explicit Stream(std::FILE* file) : OStream(""), file_(file) {}
+  explicit OutStream(std::FILE* file) : OStream(""), file_(file) {}
 
   void write(const char* bytes, int count) override {
     const auto size = static_cast<std::size_t>(count);
@@ -93,6 +94,28 @@ class Stream : public Imf::OStream {
   std::FILE* file_;
 };
 
+// OpenEXR over the bytes of a file, which must outlive it.
+class InStream : public Imf::IStream {
+ public:
+  InStream(const std::string& name, std::string_view bytes)
+      : IStream(name.c_str()), bytes_(bytes) {}
+
+  bool read(char* to, int count) override {
+    const auto size = static_cast<std::size_t>(count);
+    if (at_ > bytes_.size() || size > bytes_.size() - at_)
+      throw std::runtime_error("it ends too early");
+    bytes_.copy(to, size, at_);
+    at_ += size;
+    return at_ < bytes_.size();
+  }
+  std::uint64_t tellg() override { return at_; }
+  void seekg(std::uint64_t position) override { at_ = position; }
+
+ private:
+  std::string_view bytes_;
+  std::uint64_t at_ = 0;
+};
+
 }  // namespace
 
 void encodeExr(std::FILE* to, const Image& image) {
@@ -108,14 +131,16 @@ void encodeExr(std::FILE* to, const Image& image) {
     header.channels().insert(image.names[i], Imf::Channel(Imf::FLOAT));
     pixels.insert(image.names[i], Imf::Slice::Make(Imf::FLOAT, image.channels[i].data(), window));
   }
-  Stream stream(to);
+  OutStream stream(to);
   Imf::OutputFile file(stream, header, 0);
   file.setFrameBuffer(pixels);
   file.writePixels(image.window.height());
 }
 
 Image readExr(const std::filesystem::path& path) try {
-  Imf::InputFile file(path.c_str(), 0);
+  const std::string bytes = readFile(path);
+  InStream stream(path.string(), bytes);
+  Imf::InputFile file(stream, 0);
   const Imf::Header& header = file.header();
   const Imath::Box2i& window = header.dataWindow();
   const Imath::Box2i& display = header.displayWindow();
@@ -134,10 +159,9 @@ Image readExr(const std::filesystem::path& path) try {
       throw std::runtime_error(fmt::format("channel \"{}\" is subsampled", it.name()));
     image.names.emplace_back(it.name());
   }
-  // A broken header may claim any size. The densest codec, DWA of a constant, comes near this.
+  // The densest codec, DWA of a constant, comes near this.
   constexpr std::size_t kMostValuesPerByte = 1U << 14U;
-  if (count * image.names.size() / kMostValuesPerByte > std::filesystem::file_size(path))
-    throw std::runtime_error("the file is too short for the size of its picture");
+  checkRoom(count * image.names.size(), bytes.size(), kMostValuesPerByte);
   for (const std::string& name : image.names) {
     auto& channel = image.channels.emplace_back(count);
     pixels.insert(name, Imf::Slice::Make(Imf::FLOAT, channel.data(), window));
@@ -145,6 +169,8 @@ Image readExr(const std::filesystem::path& path) try {
   file.setFrameBuffer(pixels);
   file.readPixels(window.min.y, window.max.y);
   return image;
+} catch (const Error&) {
+  throw;
 } catch (const std::exception& error) {
   // OpenEXR names the file in most of its messages, but not in all.
   const std::string what = error.what();

@@ -22,10 +22,18 @@ namespace {
 
 }  // namespace
 
-Replacement::Replacement(const fs::path& target)
-    : target_(fs::is_symlink(target) ? fs::weakly_canonical(target) : target) {
+fs::path throughLinks(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_symlink(file, error)) return file;
+  const fs::path target = fs::weakly_canonical(file, error);
+  return error ? file : target;
+}
+
+Replacement::Replacement(const fs::path& target) : target_(throughLinks(target)) {
   const fs::file_status status = fs::status(target_);  // throws if the name is too long
   if (fs::is_directory(status)) throw std::runtime_error("it is a folder");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw std::runtime_error("it is a device or a pipe");
   if (fs::exists(status) && access(target_.c_str(), W_OK) != 0) systemError(errno);
   const fs::path folder = target_.has_parent_path() ? target_.parent_path() : ".";
   if (!fs::is_directory(folder)) throw std::runtime_error("there is no such folder");

@@ -8,6 +8,9 @@
 
 namespace pbrt {
 
+// The file that a path names, through links; the path itself if it is no link.
+std::filesystem::path throughLinks(const std::filesystem::path& file);
+
 // A new file in the folder of `target` that takes the target's place once it is complete, and
 // vanishes if it never is. What fails throws std::exception with the reason alone; the caller names
 // the file.

@@ -84,6 +84,9 @@ std::optional<DirectiveKind> findDirective(std::string_view keyword);
 // Every keyword, for "did you mean".
 std::vector<std::string> directiveNames();
 
+// A parameter is looked for among all others of its statement. Real ones have a few dozen.
+constexpr std::size_t kMostParameters = 1000;
+
 struct Directive {
   DirectiveKind kind = DirectiveKind::Identity;
   Location where;                  // the keyword

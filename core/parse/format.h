@@ -9,8 +9,8 @@ namespace pbrt {
 
 // Prints one scene, statement after statement. What is printed parses to the same directives and is
 // printed as it is: numbers have the shortest digits that read back to the same value. Types keep
-// their spelling, which tells the generation of the scene. What Include and Import brought stands in
-// their place, so that one file holds the scene. Comments are lost.
+// their spelling (color or rgb), which tells for which pbrt the scene is written. What Include and
+// Import brought stands in their place, so that one file holds the scene. Comments are lost.
 class Formatter {
  public:
   // The lines of a statement, the last ended too; indented within Begin and End. The text that the

@@ -116,6 +116,12 @@ std::string_view textAt(const Location& where) {
   return std::string_view(where.source->text).substr(where.begin, where.length);
 }
 
+std::string_view declaredType(const Param& param) {
+  if (!param.where.source) return "";
+  const auto [words, count] = wordsOf(param.where);
+  return count == 2 ? textAt(words[0]) : "";
+}
+
 std::string unquote(const Location& quoted) {
   constexpr std::string_view kEscapes = "\"\\'ntrbf";
   constexpr std::string_view kMeant = "\"\\'\n\t\r\b\f";
@@ -197,10 +203,6 @@ std::string_view typeOf(const Value& value) {
 }
 
 }  // namespace
-
-std::string_view spelledType(const Param& param) {
-  return param.where.source ? textAt(wordsOf(param.where).words[0]) : typeName(param.type);
-}
 
 Param makeParam(const Location& declaration, const Value& value) {
   const auto [words, count] = wordsOf(declaration);

@@ -15,6 +15,10 @@ struct Value {
 // The bytes of a place.
 std::string_view textAt(const Location& where);
 
+// The type of a parameter as the scene writes it, "color" or "rgb"; empty if no scene did. The text
+// that the parameter came from must still be there.
+std::string_view declaredType(const Param& param);
+
 // The text of a quoted string, its escapes (\" \\ \' \n \t \r \b \f) resolved.
 std::string unquote(const Location& quoted);
 
@@ -27,10 +31,6 @@ struct Wanted {
 // Appends the numbers of a value; T is float, double or int.
 template <class T>
 void readNumbers(const Value& value, const Wanted& wanted, std::vector<T>& numbers);
-
-// The name of a parameter's type as the scene spells it ("color", where rgb is the same); ours if it
-// comes from no text.
-std::string_view spelledType(const Param& param);
 
 // The parameter which the quoted declaration and the value give. Throws Error at the place of
 // what is wrong: the declaration, the type, one of the values, or their count.

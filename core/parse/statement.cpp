@@ -6,12 +6,6 @@
 #include <new>
 
 namespace pbrt {
-namespace {
-
-// A parameter is looked for among all others of its statement. Real ones have a few dozen.
-constexpr std::size_t kMostParameters = 1000;
-
-}  // namespace
 
 void Statement::name(const Location& quoted) {
   directive_.words.push_back(unquote(quoted));

@@ -17,7 +17,7 @@ class Coat {
         eta_(p.refractiveIndex(prefix + "eta", 1.5F, "index of refraction of the coat")),
         smooth_(eta_) {
     if (!(eta_ >= 1)) p.fail(prefix + "eta", "must be at least 1");
-    if (!roughness_.none()) rough_.emplace(eta_);
+    if (!roughness_.none()) rough_ = RoughCoatTable::shared(eta_);
     constexpr std::string_view clear = "of a medium in the coat: has no effect";
     p.floatTexture("thickness", 0.01F, clear);
     p.floatTexture("g", 0, clear);
@@ -53,7 +53,7 @@ class Coat {
   Roughness roughness_;
   float eta_;
   CoatBoundary smooth_;
-  std::optional<RoughCoatTable> rough_;  // where it is not smooth everywhere
+  std::shared_ptr<const RoughCoatTable> rough_;  // where it is not smooth everywhere
 };
 
 }  // namespace pbrt

@@ -92,7 +92,6 @@ const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
   const fs::path file = find(kind, name);
   if (file.empty()) {
     const std::vector<std::string> names = available(kind);
-    const std::string shown = name.size() > 60 ? name.substr(0, 60) + "..." : name;
     if (names.empty())
       throw Error(fmt::format("there are no {} in {}", kindFolder(kind),
                               fmt::join(
@@ -103,8 +102,8 @@ const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
                                   }(),
                                   ", ")),
                   Failure::plugin);
-    throw Error(
-        fmt::format("there is no {} \"{}\"{}", kindName(kind), shown, didYouMean(name, names)));
+    throw Error(fmt::format("there is no {} \"{}\"{}", kindName(kind), shown(name),
+                            didYouMean(name, names)));
   }
 
   const auto start = std::chrono::steady_clock::now();

@@ -130,6 +130,10 @@ class Params {
   void alsoSearch(std::filesystem::path folder) { alsoSearch_ = std::move(folder); }
   // From here on emission() brings a "spectrum" to luminance 1, as pbrt-v4 does.
   void bringLightsToLuminanceOne() { unitLights_ = true; }
+  // More names that a scene may have meant by one that nobody read.
+  void alsoKnown(const std::vector<std::string>& names) {
+    known_.insert(known_.end(), names.begin(), names.end());
+  }
   // The statement.
   const Location& where() const { return where_; }
   // Parameters of list `i` that nobody read, and the error that says so, with "did you mean".
@@ -149,6 +153,7 @@ class Params {
     std::filesystem::path found;     // empty: none of those that were tried is a file
     std::vector<std::string> tried;  // in their order
     std::string notAFile;            // one of them that is there: a folder, a device ...
+    std::string allTried() const;    // for a message
   };
 
   const Param* find(const std::string& name, std::span<const ParamType> types,

@@ -56,7 +56,7 @@ SampledSpectrum Params::fileOrNamed(const Param& p, const std::string& given) co
     if (auto metal = namedSpectrum(metalOfFile(given))) return *std::move(metal);
     fail(p.name,
          fmt::format("is \"{}\", which is neither a file ({}) nor one of the named spectra{}",
-                     given, fmt::join(s.tried, ", "), didYouMean(given, spectrumNames())));
+                     shown(given), s.allTried(), didYouMean(given, spectrumNames())));
   }
   try {
     return readSpectrumFile(s.found, report_);

@@ -32,13 +32,17 @@ Params::Search Params::search(const std::string& name, const std::string& given)
   return search;
 }
 
+std::string Params::Search::allTried() const {
+  return shown(fmt::format("{}", fmt::join(tried, ", ")), 1000);
+}
+
 std::filesystem::path Params::file(const std::string& name, std::string_view meaning) {
   const std::string given = text(name, "", meaning);
   if (given.empty()) return {};
   const Search s = search(name, given);
   if (!s.found.empty()) return s.found;
   if (!s.notAFile.empty()) fail(name, fmt::format("names {}, which is not a file", s.notAFile));
-  fail(name, fmt::format("names a file that is not there: {}", fmt::join(s.tried, ", ")));
+  fail(name, "names a file that is not there: " + s.allTried());
 }
 
 }  // namespace pbrt

@@ -4,27 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
+
+#include "core/base/file.h"
 
 namespace pbrt {
 
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n\v\f";
-
-std::string readText(const std::filesystem::path& path) {
-  constexpr std::uintmax_t kLargest = std::uintmax_t{16} << 20U;
-  std::error_code error;
-  const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (!error && size > kLargest)
-    throw Error(fmt::format("{} is too large for a spectrum: {} bytes", path.string(), size),
-                Failure::io);
-  std::ifstream file(path, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw Error("cannot read " + path.string(), Failure::io);
-  return text;
-}
+constexpr std::size_t kLargest = std::size_t{16} << 20U;  // bytes
 
 // The words of a text outside of comments.
 std::vector<Location> wordsOf(const Source& source) {
@@ -84,7 +72,7 @@ SampledSpectrum SpectrumReader::finish(const Location& where, const Reporter& re
 }
 
 SampledSpectrum readSpectrumFile(const std::filesystem::path& path, const Reporter& report) {
-  const Source source{path.string(), readText(path)};
+  const Source source{path.string(), readFile(path, FileKind::regular, kLargest)};
   const std::vector<Location> words = wordsOf(source);
   if (words.size() % 2 != 0) {
     numberOf(words.back());

@@ -1,5 +1,3 @@
-#include "core/scene/builder.h"
-
 #include <fmt/format.h>
 
 #include "core/scene/scene_builder.h"
@@ -182,7 +180,7 @@ bool SceneBuilder::handleOption(Directive& d) {
     case Renderer:
       if (d.words.at(0) == "sampler") break;
       throw Error(d.wordsWhere.at(0),
-                  fmt::format("there is no renderer \"{}\", only \"sampler\"", d.words[0]));
+                  fmt::format("there is no renderer \"{}\", only \"sampler\"", shown(d.words[0])));
     default:
       return false;
   }
@@ -207,8 +205,8 @@ void SceneBuilder::setOption(const Directive& d) {
   }
   Params p("Option", d.where, {&list}, nullptr, options_.report);
   constexpr int kMost = std::numeric_limits<int>::max();
-  if (p.has("seed"))
-    seed_ = static_cast<std::uint64_t>(p.integer("seed", 0, 0, kMost, "of all random numbers"));
+  const int seed = p.integer("seed", 0, 0, kMost, "of all random numbers");
+  if (p.has("seed")) seed_ = static_cast<std::uint64_t>(seed);
   for (const char* name : {"disablepixeljitter", "disabletexturefiltering", "forcediffuse"})
     if (p.flag(name, false, "")) p.warn(name, "has no effect here");
   for (const char* name : {"disablewavelengthjitter", "pixelstats", "wavefront"})
@@ -270,51 +268,6 @@ void SceneBuilder::handleWorld(Directive& d) {
     default:
       return;
   }
-}
-
-SceneReader::SceneReader(PluginLoader& loader, BuildOptions options)
-    : loader_(loader), options_(std::move(options)) {
-  if (!options_.dialect) return;
-  dialect_ = {*options_.dialect, {}, "--dialect says so"};
-  begin();
-}
-
-SceneReader::~SceneReader() = default;
-
-void SceneReader::begin() {
-  builder_ = std::make_unique<SceneBuilder>(loader_, options_, dialect_);
-  for (Directive& d : waiting_) {
-    builder_->handle(std::move(d));
-    d = Directive();  // frees the parameters that nobody kept
-  }
-  waiting_ = {};
-}
-
-void SceneReader::read(Directive&& d) {
-  if (builder_) return builder_->handle(std::move(d));
-  detector_.look(d);
-  waiting_.push_back(std::move(d));
-  if (!detector_.decided()) return;
-  dialect_ = detector_.result();
-  begin();
-}
-
-std::unique_ptr<Scene> SceneReader::finish() {
-  if (!builder_) {
-    dialect_ = detector_.result();
-    begin();
-  }
-  return builder_->finish();
-}
-
-std::unique_ptr<Scene> buildScene(std::vector<Directive> directives, PluginLoader& loader,
-                                  const BuildOptions& options) {
-  SceneReader reader(loader, options);
-  for (Directive& d : directives) {
-    reader.read(std::move(d));
-    d = Directive();
-  }
-  return reader.finish();
 }
 
 }  // namespace pbrt

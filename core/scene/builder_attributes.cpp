@@ -44,7 +44,7 @@ ColorSpace SceneBuilder::colorSpaceOf(const Directive& d) {
   if (const auto space = findColorSpace(d.words.at(0))) return *space;
   const std::vector<std::string> names = colorSpaceNames();
   throw Error(d.wordsWhere.at(0),
-              fmt::format("there is no color space \"{}\" (it is one of {}){}", d.words[0],
+              fmt::format("there is no color space \"{}\" (it is one of {}){}", shown(d.words[0]),
                           fmt::join(names, ", "), didYouMean(d.words[0], names)));
 }
 
@@ -53,13 +53,19 @@ void SceneBuilder::setDefaults(Directive& d) {
   const auto* target = std::find(kAttributeTargets.begin(), kAttributeTargets.end(), d.words.at(0));
   if (target == kAttributeTargets.end()) {
     const std::vector<std::string> names(kAttributeTargets.begin(), kAttributeTargets.end());
-    throw Error(d.wordsWhere.at(0),
-                fmt::format("Attribute sets defaults of \"{}\", not of \"{}\"{}",
-                            fmt::join(names, "\", \""), d.words[0], didYouMean(d.words[0], names)));
+    throw Error(
+        d.wordsWhere.at(0),
+        fmt::format("Attribute sets defaults of \"{}\", not of \"{}\"{}",
+                    fmt::join(names, "\", \""), shown(d.words[0]), didYouMean(d.words[0], names)));
   }
   auto& defaults = attributes_.defaults[target - kAttributeTargets.begin()];
   ParamList list = defaults ? *defaults : ParamList();
-  std::move(d.params.begin(), d.params.end(), std::back_inserter(list));
+  for (Param& p : d.params) {
+    std::erase_if(list, [&](const Param& before) { return before.name == p.name; });
+    if (list.size() == kMostParameters)
+      throw Error(p.where, fmt::format("there are defaults of {} parameters already", list.size()));
+    list.push_back(std::move(p));
+  }
   defaults = std::make_shared<const ParamList>(std::move(list));
 }
 

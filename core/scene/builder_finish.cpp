@@ -116,6 +116,14 @@ void SceneBuilder::movePixelBounds() {
 
 void SceneBuilder::makeFilm() {
   movePixelBounds();
+  scene_->filter_ = makeOption<Filter>(filter_, DirectiveKind::PixelFilter, defaults_.filter);
+  if (!factory_.attempt([&] { readFilm(); })) {
+    film_.reset();
+    readFilm();
+  }
+}
+
+void SceneBuilder::readFilm() {
   const Directive& statement = option(film_, DirectiveKind::Film, "image");
   Params film("film/" + statement.words.at(0), statement.where, {&statement.params}, nullptr,
               options_.report);
@@ -132,10 +140,8 @@ void SceneBuilder::makeFilm() {
   const Bounds2i crop = cropBounds(film, resolution);
   scene_->outputFile_ = film.text("filename", "pbrt.exr", "where the picture goes");
   Film::Settings settings = filmSettings(film);
-  settings.aovs |= filmAovs(statement);
+  factory_.attempt([&] { settings.aovs |= filmAovs(statement); });
   factory_.attempt([&] { film.refuseUnread(); });
-
-  scene_->filter_ = makeOption<Filter>(filter_, DirectiveKind::PixelFilter, defaults_.filter);
   scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, settings);
 }
 
@@ -163,13 +169,17 @@ void SceneBuilder::makeCamera(Point2i resolution) {
   const TransformPair renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
   scene_->ownCamera_ = makeOption<Camera>(camera_, DirectiveKind::Camera, defaults_.camera,
                                           {renderFromCamera.start, resolution});
-  if (renderFromCamera.moves()) try {
-      scene_->moves_ = true;
-      scene_->ownCamera_ = std::make_unique<MovingCamera>(
-          std::move(scene_->ownCamera_), AnimatedTransform(renderFromCamera), transforms_.times());
-    } catch (const Error& error) {
-      throw error.at(camera_ ? camera_->where : Location());
-    }
+  if (renderFromCamera.moves())
+    factory_.attempt([&] {
+      try {
+        const AnimatedTransform toRender(renderFromCamera);
+        scene_->ownCamera_ = std::make_unique<MovingCamera>(std::move(scene_->ownCamera_), toRender,
+                                                            transforms_.times());
+        scene_->moves_ = true;
+      } catch (const Error& error) {
+        throw error.at(camera_ ? camera_->where : Location());
+      }
+    });
   scene_->camera_ = scene_->ownCamera_.get();
   scene_->attributes_["worldToCamera"] = cameraFromWorld_.start.matrix();
   if (const auto screen = scene_->camera_->screenFromCamera())
@@ -195,12 +205,15 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
       makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
 
   Scene& scene = *scene_;
-  for (const MovingGroup& moving : shapes_.moving) try {
-      moving.group->accel.build();
-      addInstance(*moving.group, {}, moving.toOuter);
-    } catch (const Error& error) {
-      throw error.at(moving.where);
-    }
+  for (const MovingGroup& moving : shapes_.moving)
+    factory_.attempt([&] {
+      try {
+        moving.group->accel.build();
+        addInstance(*moving.group, {}, moving.toOuter);
+      } catch (const Error& error) {
+        throw error.at(moving.where);
+      }
+    });
   for (const Instance& instance : scene.instances_)
     if (instance.motion)
       scene.root_.accel.add(instance.group->accel, *instance.motion);

@@ -76,31 +76,35 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   g->flip = attributes.reverse != toGroup.swapsHandedness();
   g->toGroup = toGroup;
   g->mesh = g->shape->triangles();
-  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
   if (g->mesh) {
     transformMesh(*g->mesh, toGroup);
     g->toGroup = Transform();
-    group.accel.add(*g->mesh, filter);
-  } else {
-    group.accel.add(*g->shape, g->toGroup, d.where, filter);
   }
-  ++scene_->shapes_;
   if (attributes.areaLight) {
     if (&group == &scene_->root_)
-      addAreaLight(attributes, d, toGroup, *g);
+      factory_.attempt([&] { addAreaLight(attributes, d, toGroup, *g); });
     else
       factory_.report(Severity::warning, d.where,
                       "a shape of an object for instancing gives no light");
   }
+  // Last, as the tree and the list count alike: what is in one has to be in the other.
+  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
+  if (g->mesh)
+    group.accel.add(*g->mesh, filter);
+  else
+    group.accel.add(*g->shape, g->toGroup, d.where, filter);
   group.geometries.push_back(std::move(g));
+  ++scene_->shapes_;
 }
 
 // The material of a shape. What the shape does not know may be meant for it.
 std::shared_ptr<const Material> SceneBuilder::materialFor(const Params& shape,
                                                           const Attributes& attributes) {
-  if (attributes.material->isInterface())  // of a shape that shines
+  if (attributes.material->isInterface()) {  // of a shape that shines
+    factory_.attempt([&] { shape.refuseUnread(); });
     return factory_.make<Material>(
         "matte", {{ParamType::rgb, "Kd", {}, {}, std::vector<float>{0, 0, 0}}}, shape.where());
+  }
   ParamList overrides;
   for (const Param* param : shape.unread()) overrides.push_back(*param);
   if (overrides.empty()) return attributes.material->shared(resources_, attributes.scope);
@@ -128,20 +132,21 @@ void SceneBuilder::addAreaLight(const Attributes& attributes, const Directive& s
     factory_.report(Severity::warning, shape.where,
                     "the holes of this shape give light, too, to those who sample it");
   const Directive& light = *attributes.areaLight;
-  g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
-                                 {toRender, g.sampler.get()}, nullptr,
-                                 attributes.areaLightDefaults.get());
-  if (g.light->isDelta() || g.light->isInfinite())
+  auto made = factory_.make<Light>(light.words.at(0), light.params, light.where,
+                                   {toRender, g.sampler.get()}, nullptr,
+                                   attributes.areaLightDefaults.get());
+  if (made->isDelta() || made->isInfinite())
     throw Error(light.where, fmt::format("a \"{}\" light is not the surface of a shape: it needs "
                                          "LightSource",
                                          light.words.at(0)));
+  g.light = std::move(made);
 }
 
 void SceneBuilder::addInstance(const Directive& d) {
   if (openObject_) throw Error(d.where, "ObjectInstance inside an object");
   const auto found = objects_.find(d.words.at(0));
   if (found == objects_.end())
-    throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", d.words[0],
+    throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", shown(d.words[0]),
                                                 didYouMeanKey(d.words[0], objects_)));
   auto& [pending, shapes] = found->second;
   if (!shapes.resting) {

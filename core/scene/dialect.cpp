@@ -58,7 +58,7 @@ bool unquotedBool(const Param& p) {
 
 // By the spelling of its type; names that two generations share tell nothing.
 std::uint8_t generationsOf(const Param& p) {
-  const std::string_view type = spelledType(p);
+  const std::string_view type = declaredType(p);
   if (type == "color") return kV1 | kV2 | kV3;
   if (type == "rgb") return kV2 | kV3 | kV4;
   if (type == "point2" || type == "vector2" || type == "point3" || type == "vector3")
@@ -209,7 +209,7 @@ void DialectDetector::look(const Directive& d) {
     if (decided()) return;
     const bool plain = unquotedBool(p);
     narrow(generationsOf(p), p.where,
-           plain ? "true and false without quotes" : fmt::format("\"{}\"", spelledType(p)));
+           plain ? "true and false without quotes" : fmt::format("\"{}\"", declaredType(p)));
   }
 }
 

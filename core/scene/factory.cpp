@@ -22,10 +22,6 @@ std::string generations(std::string_view of) {
 
 }  // namespace
 
-std::string shown(std::string_view name) {
-  return name.size() > 60 ? fmt::format("{}...", name.substr(0, 60)) : std::string(name);
-}
-
 const PluginInfo& Factory::open(PluginKind kind, const std::string& name, const Location& where) {
   try {
     // A plug-in of that very name goes before what may stand for it.
@@ -65,6 +61,7 @@ Params Factory::params(const PluginInfo& plugin, const std::string& name, const 
            textures, report_, defaults);
   p.alsoSearch(folder_);
   if (dialect_ == Dialect::v4) p.bringLightsToLuminanceOne();
+  p.alsoKnown(renamedParameters(plugin.kind, name));
   return p;
 }
 

@@ -17,9 +17,6 @@ std::string didYouMeanKey(std::string_view name, const Map& map) {
   return didYouMean(name, names);
 }
 
-// A name for a message: cut if it is very long.
-std::string shown(std::string_view name);
-
 // Makes objects of plug-ins for a scene: finds them by the names its dialect knows, gives them its
 // defaults, and refuses parameters that they do not read. If `permissive`, errors are reported, and
 // what can go on goes on.

@@ -80,8 +80,9 @@ bool TransformState::apply(const Directive& d, Dialect dialect) {
     case CoordSysTransform: {
       const auto found = named_.find(d.words.at(0));
       if (found == named_.end())
-        throw Error(d.wordsWhere.at(0), fmt::format("there is no coordinate system \"{}\"{}",
-                                                    d.words[0], didYouMeanKey(d.words[0], named_)));
+        throw Error(d.wordsWhere.at(0),
+                    fmt::format("there is no coordinate system \"{}\"{}", shown(d.words[0]),
+                                didYouMeanKey(d.words[0], named_)));
       current_.transform = found->second;  // both, whatever is active
       return true;
     }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace pbrt {
 
@@ -69,19 +70,30 @@ std::shared_ptr<void> Resources::nest() {
 
 template <class T>
 std::shared_ptr<const Texture<T>> Resources::build(TextureDefinition<T>& d) {
-  if (d.built) return d.built;
-  const auto nested = nest();
-  Library library(*this, d.scope);
-  const bool made = factory_.attempt([&] {
-    d.built = factory_.make<Texture<T>>(d.plugin, d.params, d.where, d.place, &library,
-                                        d.attributes.get());
-  });
-  if (!made) {
-    ParamList value = magenta("value");
-    if constexpr (std::is_same_v<T, float>)
-      value = {{ParamType::number, "value", {}, {}, std::vector<float>{1}}};
-    d.built = factory_.make<Texture<T>>("constant", value, d.where);
+  if (!d.built) {
+    const auto nested = nest();
+    const std::size_t outer = std::exchange(lookups_, 1);
+    Library library(*this, d.scope);
+    const bool made = factory_.attempt([&] {
+      auto texture = factory_.make<Texture<T>>(d.plugin, d.params, d.where, d.place, &library,
+                                               d.attributes.get());
+      if (lookups_ > kMostLookups)
+        throw Error(d.where,
+                    fmt::format("to look this texture up takes more than {} lookups: what it "
+                                "names names others, again and again",
+                                kMostLookups));
+      d.built = std::move(texture);
+    });
+    if (!made) {
+      ParamList value = magenta("value");
+      if constexpr (std::is_same_v<T, float>)
+        value = {{ParamType::number, "value", {}, {}, std::vector<float>{1}}};
+      d.built = factory_.make<Texture<T>>("constant", value, d.where);
+      lookups_ = 1;
+    }
+    d.lookups = std::exchange(lookups_, outer);
   }
+  lookups_ += d.lookups;
   return d.built;
 }
 

@@ -37,6 +37,7 @@ struct TextureDefinition {
   typename Texture<T>::Setup place;
   Scope scope;  // of the textures that it may name itself
   std::shared_ptr<const Texture<T>> built;
+  std::size_t lookups = 0;  // of textures, for one of this; once it is built
 };
 
 // Keeps all definitions of a scene, and builds those that are used.
@@ -44,6 +45,9 @@ class Resources {
  public:
   // Definitions that name one another may be nested this deep.
   static constexpr int kDeepest = 100;
+  // To look a texture up may take so many lookups of others. They are counted as often as they are
+  // named: where each names the one before twice, a hundred would take 2^100.
+  static constexpr std::size_t kMostLookups = 10000;
 
   explicit Resources(Factory& factory) : factory_(factory) {}
   Resources(const Resources&) = delete;
@@ -69,7 +73,8 @@ class Resources {
   std::shared_ptr<const Texture<T>> build(TextureDefinition<T>& definition);
 
   Factory& factory_;
-  int depth_ = 0;  // of what is being built
+  int depth_ = 0;            // of what is being built
+  std::size_t lookups_ = 0;  // that one of the texture being built takes so far
   NamedList<TextureDefinition<float>> floats_;
   NamedList<TextureDefinition<Spectrum>> spectra_;
   NamedList<std::shared_ptr<MaterialDefinition>> materials_;

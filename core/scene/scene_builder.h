@@ -1,7 +1,7 @@
 #pragma once
-// The builder behind SceneReader, in parts: statements (builder.cpp), what shapes are made of
-// (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what waits until the end
-// (builder_finish.cpp).
+// The builder behind SceneReader (scene_reader.cpp), in parts: statements (builder.cpp), what
+// shapes are made of (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what
+// waits until the end (builder_finish.cpp).
 
 #include "core/base/colorspace.h"
 #include "core/base/parallel.h"
@@ -94,6 +94,7 @@ class SceneBuilder {
   void addLight(const Directive& d);
   void movePixelBounds();
   void makeFilm();
+  void readFilm();
   void makeSampler(Point2i resolution);
   void makeCamera(Point2i resolution);
   std::uint8_t filmAovs(const Directive& film) const;

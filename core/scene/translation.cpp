@@ -141,6 +141,16 @@ const Translation* findTranslation(PluginKind kind, std::string_view name) {
   return nullptr;
 }
 
+std::vector<std::string> renamedParameters(PluginKind kind, std::string_view name) {
+  std::vector<std::string> names;
+  if (const Translation* t = findTranslation(kind, name))
+    for (std::string_view list = t->parameters; !list.empty();) {
+      std::string_view pair = next(list, ',');
+      names.emplace_back(next(pair, ' '));
+    }
+  return names;
+}
+
 void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
                          ParamList& params) {
   const Translation* t = findTranslation(kind, name);

@@ -23,6 +23,9 @@ std::span<const Translation> translations();
 // Null if the name means the same everywhere.
 const Translation* findTranslation(PluginKind kind, std::string_view name);
 
+// The parameters of the plug-in that a scene calls `name` which are called otherwise here.
+std::vector<std::string> renamedParameters(PluginKind kind, std::string_view name);
+
 // Changes the parameters of the plug-in that a scene calls `name` to what they are called and mean
 // here: by the table, and
 //  - maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path in

@@ -25,6 +25,23 @@ std::string world(const std::string& statements, const std::string& options = ""
 
 const std::string kSphere = "Shape \"sphere\"";
 
+// Textures that ask the one before twice each: 2^n times the first.
+std::string doubled(int n) {
+  std::string text = "Texture \"t0\" \"float\" \"constant\"\n";
+  for (int i = 1; i <= n; ++i)
+    text += "Texture \"t" + std::to_string(i) + "\" \"float\" \"scale\" \"texture tex1\" \"t" +
+            std::to_string(i - 1) + "\" \"texture tex2\" \"t" + std::to_string(i - 1) + "\"\n";
+  return text + "Material \"matte\" \"texture sigma\" \"t" + std::to_string(n) + "\"\n";
+}
+
+// So many statements, each with a default of its own.
+std::string defaults(int n) {
+  std::string text;
+  for (int i = 0; i < n; ++i)
+    text += "Attribute \"shape\" \"float x" + std::to_string(i) + "\" 1\n";
+  return text;
+}
+
 struct Case {
   std::string name;
   std::string scene;  // contents of scene.pbrt
@@ -111,6 +128,9 @@ const Case kCases[] = {
      "\"raduis\"[^]*\"zmni\""},
     {"TypoInMaterial", world("Material \"matte\" \"rgb Kdd\" [1 1 1]\n" + kSphere), 3,
      "scene.pbrt:9:\\d+: error: materials/matte: \"Kdd\" is not .*\"Kd\""},
+    {"TypoInLampWithoutSurface",
+     world("Material \"\"\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float raduis\" 2"), 3,
+     "scene.pbrt:11:16: error: shapes/sphere: \"raduis\" is not a parameter of it"},
     {"TypoInTexture",
      world("Texture \"t\" \"color\" \"checkerboard\" \"float uscael\" [1]\n"
            "Material \"matte\" \"texture Kd\" \"t\"\n" +
@@ -144,16 +164,85 @@ const Case kCases[] = {
      0, "warning: the scene has no Camera"},
     {"NoShape", world(""), 0, "warning: the scene has no shapes"},
     {"Media", world("Volume \"homogeneous\""), 0, "warning: participating media"},
+    {"ColorSpaceMistyped", world("ColorSpace \"srbg\""), 3,
+     "scene.pbrt:9:12: error: there is no color space \"srbg\" .*did you mean \"srgb\""},
+    {"AttributeOfNothing", world("Attribute \"shap\" \"float radius\" 1"), 3,
+     "scene.pbrt:9:11: error: Attribute sets defaults of .*did you mean \"shape\""},
+    {"DefaultThatNobodyReads", world("Attribute \"shape\" \"string radius\" \"big\"\n" + kSphere),
+     3, "scene.pbrt:9:\\d+: error: shapes/sphere: \"radius\" has type \"string\""},
+    {"TooManyDefaults", world(defaults(1001)), 3,
+     "scene.pbrt:1009:19: error: there are defaults of 1000 parameters already"},
+    {"OptionMistyped", world(kSphere, "Option \"integer sead\" 1"), 3,
+     "scene.pbrt:4:8: error: Option: \"sead\" is not .*did you mean \"seed\""},
+    {"OptionOfAnotherType", world(kSphere, "Option \"seed\" \"one\""), 3,
+     "scene.pbrt:4:15: error: Option: \"seed\" has type \"string\""},
+    {"OptionWithoutValue", world(kSphere, "Option \"seed\""), 3,
+     "scene.pbrt:4:8: error: expected the value"},
+    {"OptionInWorld", world("Option \"seed\" 1"), 3,
+     "scene.pbrt:9:1: error: Option belongs before WorldBegin"},
+    {"TruthForANumber", world("Shape \"sphere\" \"float radius\" true"), 3,
+     "scene.pbrt:9:31: error: expected numbers"},
+    {"TruthMistyped", world("Shape \"sphere\" \"bool a\" ture"), 3,
+     "scene.pbrt:9:25: error: .*did you mean \"true\""},
+    {"NamedMaterialWithoutType", world("MakeNamedMaterial \"a\" \"rgb reflectance\" [1 1 1]"), 3,
+     "scene.pbrt:9:1: error: MakeNamedMaterial needs a parameter \"string type\""},
+    {"TransformOfNoTime", world("ActiveTransform Endtime"), 3,
+     "scene.pbrt:9:17: error: .*did you mean \"EndTime\""},
+    {"TimesInReverse", world(kSphere, "TransformTimes 1 0"), 3,
+     "scene.pbrt:4:1: error: TransformTimes"},
+    {"MissingImport", world("Import \"nowhere.pbrt\""), 3, "scene.pbrt:9:8: error: .*nowhere.pbrt"},
+    {"FilmMistyped", "Film \"rbg\"\nWorldBegin\n", 3,
+     "scene.pbrt:1:6: error: there is no film \"rbg\" .*did you mean \"rgb\""},
+    {"MaterialNotHereYet", world("Material \"hair\"\n" + kSphere), 3,
+     "scene.pbrt:9:1: error: \"hair\" is a material of pbrt-v3 and v4 that is not here yet"},
+    {"ParameterByItsOldName", world("Material \"diffuse\" \"rgb reflectence\" [1 1 1]\n" + kSphere),
+     3, "\"reflectence\" is not .*did you mean \"reflectance\""},
+    {"MissingMesh", world("Shape \"plymesh\" \"string filename\" \"a.ply\""), 3,
+     "scene.pbrt:9:35: error: shapes/plymesh: \"filename\" names a file that is not there: a.ply"},
+    {"MissingPicture",
+     world("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"wood.png\"\n"
+           "Material \"diffuse\" \"texture reflectance\" \"t\"\n" +
+           kSphere),
+     3, "scene.pbrt:9:53: error: textures/imagemap: .*not there: wood.png"},
+    {"MissingSpectrum", world("LightSource \"point\" \"spectrum I\" \"lamp.spd\""), 3,
+     "scene.pbrt:9:34: error: lights/point: .*neither a file \\(lamp.spd\\) nor one of the named"},
+    {"FolderAsMesh", world("Shape \"plymesh\" \"string filename\" \"/tmp\""), 3,
+     "scene.pbrt:9:35: error: shapes/plymesh: .*which is not a file"},
+    {"DeviceAsMesh", world("Shape \"plymesh\" \"string filename\" \"/dev/zero\""), 3,
+     "scene.pbrt:9:35: error: shapes/plymesh: .*which is not a file"},
+    {"LongFileName",
+     world("Shape \"plymesh\" \"string filename\" \"" + std::string(5000, 'x') + "\""), 3,
+     "scene.pbrt:9:35: error: shapes/plymesh: .*not there: x+\\.\\.\\."},
+    {"LongObjectName", world("ObjectInstance \"" + std::string(5000, 'x') + "\""), 3,
+     "scene.pbrt:9:16: error: there is no object \"x+\\.\\.\\.\""},
+    {"TexturesThatDouble", world(doubled(40) + kSphere), 3,
+     "scene.pbrt:22:1: error: to look this texture up takes more than 10000 lookups"},
     {"EmptyCrop", world(kSphere), 3, "holds no pixel", "--cropwindow 0.5,0.5,0,1 scene.pbrt"},
     {"UnknownOption", world(kSphere), 2, "--sp", "--sp 4 scene.pbrt"},
     {"ZeroSamples", world(kSphere), 2, "--spp", "--spp 0 scene.pbrt"},
     {"FolderAsOutput", world(kSphere), 4, "error: .*", "--outfile /tmp scene.pbrt"},
     {"UnknownImageFormat", world(kSphere), 4, "error: .*out.xyz", "--outfile out.xyz scene.pbrt"},
+    {"SceneFileAsOutput",
+     "Film \"image\" \"string filename\" \"scene.pbrt\"\nWorldBegin\n" + kSphere, 4,
+     "error: cannot write scene.pbrt: its name must end in .exr or .png"},
     {"MissingOutputFolder", world(kSphere), 4, "error: .*nowhere",
      "--outfile nowhere/a.exr "
      "scene.pbrt"},
     {"DescribeUnknownKind", "", 2, "did you mean \"shape\"", "--describe shaep sphere"},
     {"DescribeUnknownName", "", 3, "did you mean \"sphere\"", "--describe shape spher"},
+    {"DescribeWithoutName", "", 2, "--describe takes KIND NAME, or all", "--describe shape"},
+    {"DescribeAllAndMore", "", 2, "--describe takes KIND NAME, or all", "--describe all sphere"},
+    {"NoSuchDialect", world(kSphere), 2, "--dialect.*v5", "--dialect v5 scene.pbrt"},
+    {"CheckAndFormat", world(kSphere), 2, "--check", "--check --format scene.pbrt"},
+    {"CheckOfNoFile", "", 4, "error: .*nowhere.pbrt", "--check nowhere.pbrt"},
+    {"CheckOfBadSyntax", world("Shape"), 3, "scene.pbrt:9:1: error: expected a quoted name",
+     "--check scene.pbrt"},
+    {"PermissiveWithBadSyntax", world("Shape"), 3, "scene.pbrt:9:1: error: expected a quoted name",
+     "--permissive scene.pbrt"},
+    {"FormatOfBadSyntax", world("Shape"), 3, "scene.pbrt:9:1: error: expected a quoted name",
+     "--format scene.pbrt"},
+    {"FormatOfMissingInclude", world("Include \"nowhere.pbrt\""), 3,
+     "scene.pbrt:9:9: error: ", "--format scene.pbrt"},
 };
 
 INSTANTIATE_TEST_SUITE_P(Table, BadInput, testing::ValuesIn(kCases),

@@ -10,6 +10,7 @@
 #include <jerror.h>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace pbrt {
 
@@ -89,7 +90,7 @@ Image decode(const std::string& bytes) {
 }  // namespace
 
 Image readJpeg(const std::filesystem::path& file) {
-  const std::string bytes = readImageFile(file);
+  const std::string bytes = readFile(file);
   try {
     return decode(bytes);
   } catch (const std::exception& error) {

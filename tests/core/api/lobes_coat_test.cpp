@@ -91,6 +91,15 @@ TEST(CoatedDiffuse, ARoughCoatIsAsPhotonsWalk) {
   }
 }
 
+// Thousands of materials of a scene need not fill one each.
+TEST(RoughCoatTable, IsSharedByThoseWithOneIndex) {
+  const auto table = RoughCoatTable::shared(kEta);
+  EXPECT_EQ(RoughCoatTable::shared(kEta), table);
+  EXPECT_NE(RoughCoatTable::shared(1.2F), table);
+  EXPECT_EQ(table->boundary(0.3F).transmittance(0.5F),
+            RoughCoatTable(kEta).boundary(0.3F).transmittance(0.5F));
+}
+
 // pi f is no function of anything but the two transmittances.
 TEST(CoatedDiffuse, ByHand) {
   const CoatBoundary coat(kEta);

@@ -118,10 +118,16 @@ TEST_F(ReadFile, EndsAtTheLimit) {
   EXPECT_EQ(readFile(write("a", bytes), FileKind::regular, kLimit), bytes);
   EXPECT_EQ(readFile(write("b", packed(bytes)), FileKind::regular, kLimit), bytes);
   EXPECT_EQ(reasonOf(write("a", bytes + "b"), FileKind::regular, kLimit),
-            "it is longer than 0.000977 GiB");
+            "it is longer than 1 MiB");
   EXPECT_EQ(reasonOf(write("b", packed(bytes + "b")), FileKind::regular, kLimit),
-            "it is longer than 0.000977 GiB when unpacked");
-  EXPECT_EQ(reasonOf("/dev/zero", FileKind::any, kLimit), "it is longer than 0.000977 GiB");
+            "it is longer than 1 MiB when unpacked");
+  EXPECT_EQ(reasonOf("/dev/zero", FileKind::any, kLimit), "it is longer than 1 MiB");
+}
+
+// Hundreds of thousands of them have to fit into memory.
+TEST_F(ReadFile, SmallFilesTakeLittleMemory) {
+  for (const std::string& text : {randomBytes(10), packed(randomBytes(1000))})
+    EXPECT_LT(readFile(write("a", text)).capacity(), 4096U);
 }
 
 // A packed file may lie about what it holds: 4 GiB are neither taken nor filled.

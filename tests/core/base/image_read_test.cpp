@@ -197,6 +197,18 @@ TEST_F(ImageRead, BrokenFiles) {
   }
 }
 
+// Radiance's run lengths could hold so many pixels in so few bytes; no memory could.
+TEST_F(ImageRead, LargerThanMemoryIsRefusedBeforeItIsTaken) {
+  const std::string head = kHdr + "-Y 262144 +X 262144\n";
+  try {
+    read("a.hdr", head + std::string(std::size_t{16} << 20U, '\1'));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("too large for the memory"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(ImageRead, RefusesWhatIsNoPicture) {
   EXPECT_THROW(read("a.jpg", "x"), Error);
   EXPECT_THROW(read("a", "x"), Error);
