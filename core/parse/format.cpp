@@ -75,10 +75,11 @@ std::vector<std::string> truths(const Param& p) {
 
 // A parameter as it would stand on a line of its own after `indent`.
 std::string parameterText(DirectiveKind kind, const Param& p, const std::string& indent) {
-  // The type of an option may be missing, and pbrt-v4 itself wants it to be.
+  // The type of an option may be missing, and pbrt-v4 itself wants it to be. Other types keep their
+  // spelling: "color" or "rgb" tells for which generation a scene is written.
   const std::string declaration = kind == DirectiveKind::Option
                                       ? std::string(textAt(p.where))
-                                      : fmt::format("\"{} {}\"", typeName(p.type), p.name);
+                                      : fmt::format("\"{} {}\"", declaredType(p), p.name);
   const std::size_t used = indent.size() + declaration.size() + 1;
   const std::size_t left = kColumns - std::min(kColumns, used);
   const auto text = [&]() -> std::string {

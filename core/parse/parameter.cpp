@@ -211,4 +211,10 @@ Param makeOption(const Location& declaration, const Value& value) {
   return typed(*rule, words[0], declaration, value);
 }
 
+std::string_view declaredType(const Param& param) {
+  if (!param.where.source) return "";
+  const auto [words, count] = wordsOf(param.where);
+  return count == 2 ? textAt(words[0]) : "";
+}
+
 }  // namespace pbrt

@@ -36,4 +36,8 @@ Param makeParam(const Location& declaration, const Value& value);
 // then tells it: bool, integer (2.0 is one), float or string.
 Param makeOption(const Location& declaration, const Value& value);
 
+// The type as the scene spells it: "color" and "rgb" tell generations apart. Empty: the parameter
+// is not from a text, or an Option without a type.
+std::string_view declaredType(const Param& param);
+
 }  // namespace pbrt

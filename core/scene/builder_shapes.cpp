@@ -76,22 +76,24 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   g->flip = attributes.reverse != toGroup.swapsHandedness();
   g->toGroup = toGroup;
   g->mesh = g->shape->triangles();
-  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
   if (g->mesh) {
     transformMesh(*g->mesh, toGroup);
     g->toGroup = Transform();
-    group.accel.add(*g->mesh, filter);
-  } else {
-    group.accel.add(*g->shape, g->toGroup, d.where, filter);
   }
-  ++scene_->shapes_;
   if (attributes.areaLight) {
     if (&group == &scene_->root_)
-      addAreaLight(attributes, d, toGroup, *g);
+      factory_.attempt([&] { addAreaLight(attributes, d, toGroup, *g); });
     else
       factory_.report(Severity::warning, d.where,
                       "a shape of an object for instancing gives no light");
   }
+  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
+  // Last, as the ray tree keeps what it was given.
+  if (g->mesh)
+    group.accel.add(*g->mesh, filter);
+  else
+    group.accel.add(*g->shape, g->toGroup, d.where, filter);
+  ++scene_->shapes_;
   group.geometries.push_back(std::move(g));
 }
 
@@ -128,13 +130,14 @@ void SceneBuilder::addAreaLight(const Attributes& attributes, const Directive& s
     factory_.report(Severity::warning, shape.where,
                     "the holes of this shape give light, too, to those who sample it");
   const Directive& light = *attributes.areaLight;
-  g.light = factory_.make<Light>(light.words.at(0), light.params, light.where,
-                                 {toRender, g.sampler.get()}, nullptr,
-                                 attributes.areaLightDefaults.get());
-  if (g.light->isDelta() || g.light->isInfinite())
+  auto made = factory_.make<Light>(light.words.at(0), light.params, light.where,
+                                   {toRender, g.sampler.get()}, nullptr,
+                                   attributes.areaLightDefaults.get());
+  if (made->isDelta() || made->isInfinite())
     throw Error(light.where, fmt::format("a \"{}\" light is not the surface of a shape: it needs "
                                          "LightSource",
                                          light.words.at(0)));
+  g.light = std::move(made);
 }
 
 void SceneBuilder::addInstance(const Directive& d) {
@@ -143,10 +146,11 @@ void SceneBuilder::addInstance(const Directive& d) {
   if (found == objects_.end())
     throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", d.words[0],
                                                 didYouMeanKey(d.words[0], objects_)));
-  auto& [pending, shapes] = found->second;
+  Object& object = found->second;
+  Shapes& shapes = object.shapes;
   if (!shapes.resting) {
     shapes.resting = &addGroup();
-    for (const PendingShape& shape : pending)
+    for (const PendingShape& shape : object.pending)
       factory_.attempt([&] {
         try {
           addShape(shape.directive, shape.attributes, shape.toGroup, shapes);
@@ -154,7 +158,7 @@ void SceneBuilder::addInstance(const Directive& d) {
           throw error.at(shape.directive.where);
         }
       });
-    pending.clear();
+    object.pending.clear();
     shapes.resting->accel.build();
     for (const MovingGroup& moving : shapes.moving) moving.group->accel.build();
   }

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 
+#include "core/parse/parameter.h"
+
 namespace pbrt {
 
 namespace {
@@ -49,18 +51,9 @@ std::uint8_t generationsOf(const std::array<TellTale, N>& table, const std::stri
   return kAll;
 }
 
-std::string_view declaredType(const Param& p) {
-  if (!p.where.source) return "";
-  std::string_view text = p.where.source->text;
-  text = text.substr(std::min(p.where.begin + 1, text.size()), p.where.length);
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  return text.substr(0, text.find_first_of(" \t\""));
-}
-
 bool unquotedBool(const Param& p) {
   if (p.type != ParamType::boolean || !p.valueWhere.source) return false;
-  const std::string_view text = p.valueWhere.source->text;
-  return text.substr(p.valueWhere.begin, p.valueWhere.length).find('"') == std::string_view::npos;
+  return textAt(p.valueWhere).find('"') == std::string_view::npos;
 }
 
 // By the spelling of its type; names that two generations share tell nothing.
