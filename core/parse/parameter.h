@@ -25,7 +25,7 @@ std::string unquote(const Location& quoted);
 // What a value has to be: completes the message "expected ...".
 struct Wanted {
   std::string_view what;
-  std::string_view of = "";
+  std::string_view of;
 };
 
 // Appends the numbers of a value; T is float, double or int.

@@ -148,10 +148,11 @@ void SceneBuilder::addInstance(const Directive& d) {
   if (found == objects_.end())
     throw Error(d.wordsWhere.at(0), fmt::format("there is no object \"{}\"{}", shown(d.words[0]),
                                                 didYouMeanKey(d.words[0], objects_)));
-  auto& [pending, shapes] = found->second;
+  Object& object = found->second;
+  Shapes& shapes = object.shapes;
   if (!shapes.resting) {
     shapes.resting = &addGroup();
-    for (const PendingShape& shape : pending)
+    for (const PendingShape& shape : object.pending)
       factory_.attempt([&] {
         try {
           addShape(shape.directive, shape.attributes, shape.toGroup, shapes);
@@ -159,7 +160,7 @@ void SceneBuilder::addInstance(const Directive& d) {
           throw error.at(shape.directive.where);
         }
       });
-    pending.clear();
+    object.pending.clear();
     shapes.resting->accel.build();
     for (const MovingGroup& moving : shapes.moving) moving.group->accel.build();
   }

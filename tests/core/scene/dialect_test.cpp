@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/parse/format.h"
 #include "core/parse/parse.h"
 
 namespace pbrt {
@@ -78,6 +79,19 @@ TEST(Dialect, SaysWhichStatementTells) {
   EXPECT_TRUE(detector.decided());
   EXPECT_EQ(detector.result().reason, "Film \"rgb\" tells");
   EXPECT_EQ(diagnose(Severity::note, detector.result().where, "").line, 2U);
+}
+
+// "point" is any generation's, "point3" v3's or v4's; "color" is not v4's, "rgb" not v1's.
+TEST(Dialect, IsThatOfThePrintedScene) {
+  for (const char* text : {"WorldBegin Shape \"sphere\" \"color Kd\" [1 0 0]",
+                           "WorldBegin LightSource \"point\" \"point from\" [1 2 3] WorldEnd",
+                           "WorldBegin Shape \"sphere\" \"bool b\" true"}) {
+    std::string printed;
+    Formatter formatter;
+    Parser parser([&](Directive&& d) { printed += formatter.print(d); });
+    parser.text("test", text);
+    EXPECT_EQ(detected(printed), detected(text)) << printed;
+  }
 }
 
 TEST(Dialect, NamesRoundTrip) {

@@ -190,6 +190,21 @@ TEST(Permissive, WhatCannotBeHadIsMagentaAndSaidOnce) {
   }
 }
 
+TEST(Permissive, AShapeWhoseLightIsWrongIsThereAndDark) {
+  for (const std::string light : {"\"nothing\"", "\"point\"", "\"diffuse\" \"float nothing\" 1"}) {
+    BuildOptions options;
+    options.permissive = true;
+    int errors = 0;
+    options.report = [&](const Diagnostic& d) { errors += d.severity == Severity::error ? 1 : 0; };
+    const Image image =
+        test::renderText(v4("AreaLightSource " + light +
+                            "\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n" + kDisk),
+                         0, options);
+    EXPECT_EQ(test::mean(image, "A"), 1) << light;
+    EXPECT_EQ(errors, 1) << light;
+  }
+}
+
 TEST(Permissive, TheRestOfTheSceneIsBuilt) {
   const Said all = said(v4("Shape \"nothing\"\nLightSource \"nothing\"\nAttributeEnd\n" + kRed +
                                "Shape \"disk\" \"float nothing\" 1 \"float radios\" 1\n" + kDisk,
