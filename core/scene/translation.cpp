@@ -41,7 +41,7 @@ constexpr std::array kTable = {
     Translation{integrator, "sppm", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "bidirectional", "v1", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "photonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
-    Translation{integrator, "exphotonmap", "v1", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "exphotonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "irradiancecache", "v1 v2", "path", "* -", kPaths},
     Translation{integrator, "igi", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "ambientocclusion", "v2 v3 v4", "", "", ""},
@@ -54,7 +54,7 @@ constexpr std::array kTable = {
 
     Translation{light, "area", "v1 v2 v3", "diffuse", "", ""},
     Translation{light, "infinitesample", "v1", "infinite", "", ""},
-    Translation{light, "exinfinite", "v3", "infinite", "", ""},
+    Translation{light, "exinfinite", "v1 v2 v3", "infinite", "", ""},
 
     Translation{material, "diffuse", "v4", "matte", "reflectance Kd, displacement bumpmap", ""},
     Translation{material, "dielectric", "v4", "glass", kBump, ""},
