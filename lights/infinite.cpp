@@ -61,8 +61,10 @@ class Infinite final : public Light {
                     "picture's own",
                     "lx");
     samples_ = readLightSamples(p);
-    if (!p.points("portal", "must be absent: light is not guided through windows").empty())
-      p.fail("portal", "is not there yet; without it the picture is the same, but noisier");
+    if (!p.points("portal", "without effect yet: light is not guided through windows").empty())
+      p.warn("portal",
+             "has no effect yet: where light comes in elsewhere, too, it is there; where not, the "
+             "picture is the same, but noisier");
   }
 
   // pbrt-v4 has square pictures in the equal-area map, the others have the latitude and longitude.

@@ -7,8 +7,11 @@ namespace pbrt {
 template <class T>
 class Windy final : public Texture<T> {
  public:
-  Windy(Params& /*p*/, const typename Texture<T>::Setup& setup)
-      : toTexture_(setup.placement.inverse()) {}
+  Windy(Params& p, const typename Texture<T>::Setup& setup)
+      : toTexture_(setup.placement.inverse()) {
+    p.number("scale", 1, "without effect, as in every pbrt, whose own scenes have it");
+    if (p.has("scale")) p.warn("scale", "has no effect, as in every pbrt; Scale before it has");
+  }
 
   // Waves, strong where a tenfold coarser noise is.
   T evaluate(const SurfaceInteraction& at) const override {

@@ -42,6 +42,16 @@ constexpr std::array kSamplers = {
 constexpr std::array kCameras = {TellTale{kV1 | kV2 | kV3, "environment"},
                                  TellTale{kV4, "spherical"}};
 constexpr std::array kAreaLights = {TellTale{kV1 | kV2 | kV3, "area"}};
+constexpr std::array kFilmParameters = {
+    TellTale{kV1, "premultiplyalpha writefrequency"},
+    TellTale{kV4, "iso sensor whitebalance maxcomponentvalue savefp16"}};
+constexpr std::array kLights = {TellTale{kV1, "infinitesample"}};
+constexpr std::array kSurfaceIntegrators = {
+    TellTale{kV1, "bidirectional debug"},
+    TellTale{kV2, "ambientocclusion dipolesubsurface diffuseprt glossyprt useprobes"}};
+constexpr std::array kShapes = {
+    TellTale{kV4, "bilinearmesh"}, TellTale{kV3 | kV4, "curve plymesh"},
+    TellTale{kV1 | kV2 | kV3, "cone heightfield hyperboloid nurbs paraboloid"}};
 
 template <std::size_t N>
 std::uint8_t generationsOf(const std::array<TellTale, N>& table, const std::string& name) {
@@ -75,6 +85,7 @@ std::uint8_t generationsOf(const Directive& d) {
     case Renderer:
       return kV2;
     case SurfaceIntegrator:
+      return generationsOf(kSurfaceIntegrators, word()) & (kV1 | kV2);
     case VolumeIntegrator:
     case Volume:
       return kV1 | kV2;
@@ -102,6 +113,10 @@ std::uint8_t generationsOf(const Directive& d) {
       return generationsOf(kCameras, word());
     case AreaLightSource:
       return generationsOf(kAreaLights, word());
+    case LightSource:
+      return generationsOf(kLights, word());
+    case Shape:
+      return generationsOf(kShapes, word());
     default:
       return kAll;
   }
@@ -210,6 +225,8 @@ void DialectDetector::look(const Directive& d) {
     const bool plain = unquotedBool(p);
     narrow(generationsOf(p), p.where,
            plain ? "true and false without quotes" : fmt::format("\"{}\"", declaredType(p)));
+    if (d.kind == Film)
+      narrow(generationsOf(kFilmParameters, p.name), p.where, fmt::format("Film's \"{}\"", p.name));
   }
 }
 

@@ -1,5 +1,7 @@
 #include "core/scene/translation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,7 +41,7 @@ constexpr std::array kTable = {
     Translation{integrator, "sppm", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "bidirectional", "v1", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "photonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
-    Translation{integrator, "exphotonmap", "v1", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "exphotonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "irradiancecache", "v1 v2", "path", "* -", kPaths},
     Translation{integrator, "igi", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "ambientocclusion", "v2 v3 v4", "", "", ""},
@@ -52,7 +54,7 @@ constexpr std::array kTable = {
 
     Translation{light, "area", "v1 v2 v3", "diffuse", "", ""},
     Translation{light, "infinitesample", "v1", "infinite", "", ""},
-    Translation{light, "exinfinite", "v3", "infinite", "", ""},
+    Translation{light, "exinfinite", "v1 v2 v3", "infinite", "", ""},
 
     Translation{material, "diffuse", "v4", "matte", "reflectance Kd, displacement bumpmap", ""},
     Translation{material, "dielectric", "v4", "glass", kBump, ""},
@@ -123,6 +125,23 @@ void alphaFromSigma(Param& sigma) {
   values->front() = 1 / (2 * values->front() * values->front());
 }
 
+// (scale x)^g = scale^g x^g.
+void powerOfScaled(ParamList& params) {
+  const auto find = [&](std::string_view name) -> std::vector<float>* {
+    const auto p = std::ranges::find(params, name, &Param::name);
+    auto* values = p == params.end() ? nullptr : std::get_if<std::vector<float>>(&p->values);
+    return values && values->size() == 1 ? values : nullptr;
+  };
+  const std::vector<float>* power = find("gamma");
+  if (!power || !(power->front() > 0)) return;
+  if (std::vector<float>* scale = find("scale"))
+    scale->front() = std::pow(std::max(0.F, scale->front()), power->front());
+  Param& gamma = *std::ranges::find(params, "gamma", &Param::name);
+  const std::string curve = fmt::format("gamma {}", power->front());
+  gamma = {ParamType::string, "encoding", gamma.where, gamma.valueWhere,
+           std::vector<std::string>{curve}};
+}
+
 void lightStrategy(Param& strategy) {
   if (auto* names = std::get_if<std::vector<std::string>>(&strategy.values))
     for (std::string& name : *names)
@@ -158,6 +177,7 @@ void translateParameters(Dialect dialect, PluginKind kind, const std::string& na
     std::erase_if(params, [&](const Param& p) { return renamed(*t, p.name) == "-"; });
     for (Param& p : params) p.name = renamed(*t, p.name);
   }
+  if (kind == texture && name == "imagemap") powerOfScaled(params);
   const bool path = kind == integrator && (name == "path" || (t && t->target == "path"));
   const bool shallow = dialect == Dialect::v1 || (dialect == Dialect::v2 && path);
   for (Param& p : params) {

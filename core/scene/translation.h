@@ -31,6 +31,9 @@ std::vector<std::string> renamedParameters(PluginKind kind, std::string_view nam
 //  - maxdepth of pbrt-v1's integrators counts mirrors, that of the later ones rays; that of path in
 //    v1 and v2 leaves out the first scattering;
 //  - v4's gaussian filter has a width, sigma, where ours has alpha = 1 / (2 sigma^2);
+//  - v2's imagemap raises what it scaled to the power gamma, a number; ours has an encoding. That
+//  of
+//    a picture of light (.exr, .pfm) is left alone;
 //  - v4 calls the ways in which path chooses lights otherwise.
 void translateParameters(Dialect dialect, PluginKind kind, const std::string& name,
                          ParamList& params);

@@ -170,9 +170,14 @@ TEST_F(Infinite, BlackPicturesGiveNoSamples) {
   EXPECT_EQ(light->pdfEscaped({0, 0, 1}), 0);
 }
 
+TEST_F(Infinite, PortalsChangeNothing) {
+  const auto bare = make<Light>("infinite", {rgb("L", 1, 2, 3)});
+  const auto light = make<Light>(
+      "infinite", {rgb("L", 1, 2, 3), points("portal", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})});
+  EXPECT_EQ(light->escaped({0, 0, 1}), bare->escaped({0, 0, 1}));
+}
+
 TEST_F(Infinite, RefusesWhatItCannot) {
-  EXPECT_THROW(make<Light>("infinite", {points("portal", {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})}),
-               Error);
   EXPECT_THROW(
       make<Light>("infinite", {text("mapname", picture(4, 2)), text("mapping", "equalarea")}),
       Error);

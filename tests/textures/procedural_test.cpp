@@ -119,6 +119,8 @@ TEST(Solid, IsNoiseInItsOwnSpace) {
        turbulence(p, none, none, 0.5F, 8));
   near(make<Texture<float>>("windy", {}, {placement})->evaluate(at),
        std::abs(fbm(0.1 * p, none, none, 0.5F, 3)) * fbm(p, none, none, 0.5F, 6));
+  EXPECT_EQ(make<Texture<float>>("windy", {number("scale", 0.1F)}, {placement})->evaluate(at),
+            make<Texture<float>>("windy", {}, {placement})->evaluate(at));
   for (const char* name : {"fbm", "wrinkled", "windy"}) {
     EXPECT_TRUE(make<Texture<float>>(name)->filters());
     // A footprint as wide as a wave: nothing but the mean is left.

@@ -42,6 +42,24 @@ TEST(Dialect, StatementsThatTwoHaveDecideTogether) {
   EXPECT_EQ(detected("Integrator \"volpath\" Film \"rgb\" WorldBegin"), Dialect::v4);
 }
 
+TEST(Dialect, PluginsThatNotAllHaveDecide) {
+  const auto world = [](const std::string& statement) {
+    return detected("WorldBegin Material \"matte\" " + statement + " WorldEnd");
+  };
+  EXPECT_EQ(world("Shape \"sphere\""), Dialect::v2);
+  EXPECT_EQ(world("Shape \"plymesh\""), Dialect::v3);
+  EXPECT_EQ(world("Shape \"curve\""), Dialect::v3);
+  EXPECT_EQ(world("LightSource \"infinitesample\""), Dialect::v1);
+  EXPECT_EQ(detected("WorldBegin Shape \"bilinearmesh\" WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("WorldBegin Shape \"nurbs\""), Dialect::v2);  // v4 has none
+  EXPECT_EQ(detected("SurfaceIntegrator \"bidirectional\" WorldBegin WorldEnd"), Dialect::v1);
+  EXPECT_NE(detect("SurfaceIntegrator \"glossyprt\"").reason.find("glossyprt\" tells"),
+            std::string::npos);
+  const DetectedDialect film = detect("Film \"image\" \"bool premultiplyalpha\" \"false\"");
+  EXPECT_EQ(film.dialect, Dialect::v1);
+  EXPECT_EQ(film.reason, "Film's \"premultiplyalpha\" tells");
+}
+
 TEST(Dialect, BooleansWithoutQuotesAreV4s) {
   EXPECT_EQ(detected("Integrator \"path\" \"bool regularize\" true WorldBegin WorldEnd"),
             Dialect::v4);

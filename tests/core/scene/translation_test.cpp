@@ -52,6 +52,22 @@ TEST(Translation, AGaussianIsAsWideByItsSigmaAsByItsAlpha) {
   EXPECT_EQ(params[1].name, "xwidth");
 }
 
+TEST(Translation, ThePowerOfAScaledPictureIsAnEncoding) {
+  const auto imagemap = [](const ParamList& params) {
+    return translated(Dialect::v2, PluginKind::texture, "imagemap", params);
+  };
+  // (3 x)^2 = 9 x^2
+  const ParamList params = imagemap({test::number("scale", 3), test::number("gamma", 2)});
+  ASSERT_EQ(params.size(), 2U);
+  EXPECT_EQ(std::get<std::vector<float>>(params[0].values).at(0), 9);
+  EXPECT_EQ(params[1].name, "encoding");
+  EXPECT_EQ(params[1].type, ParamType::string);
+  EXPECT_EQ(std::get<std::vector<std::string>>(params[1].values).at(0), "gamma 2");
+  // pbrt-v3's says whether there is a curve, and a number that is no power is left to the plug-in.
+  EXPECT_EQ(imagemap({test::flag("gamma", false)}).at(0).name, "gamma");
+  EXPECT_EQ(imagemap({test::number("gamma", -1)}).at(0).name, "gamma");
+}
+
 TEST(Translation, LightSamplersOfV4AreStrategiesOfV3) {
   const ParamList params =
       translated(Dialect::v4, PluginKind::integrator, "path", {test::text("lightsampler", "bvh")});
