@@ -179,6 +179,13 @@ bool SceneBuilder::handleOption(Directive& d) {
       break;
     case Renderer:
       if (d.words.at(0) == "sampler") break;
+      if (d.words[0] == "metropolis") {  // pbrt-v2's: the light of all paths, whatever is sampled
+        factory_.report(Severity::warning, d.where,
+                        "there is no renderer \"metropolis\" yet; \"path\" takes its place: "
+                        "paths find the same light, at another cost");
+        renderer_ = std::move(d);
+        break;
+      }
       throw Error(d.wordsWhere.at(0),
                   fmt::format("there is no renderer \"{}\", only \"sampler\"", shown(d.words[0])));
     default:

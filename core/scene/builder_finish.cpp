@@ -201,6 +201,9 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   const Point2i resolution = scene_->film_->resolution();
   makeSampler(resolution);
   makeCamera(resolution);
+  if (renderer_)
+    integrator_ =
+        Directive{DirectiveKind::Integrator, renderer_->where, {"path"}, {renderer_->where}};
   scene_->integrator_ =
       makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
 

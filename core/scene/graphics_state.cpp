@@ -64,7 +64,11 @@ bool TransformState::apply(const Directive& d, Dialect dialect) {
     case ConcatTransform: {
       glm::dmat4 m;
       for (int i = 0; i < 16; ++i) m[i / 4][i % 4] = x[i];
-      if (x[3] != 0 || x[7] != 0 || x[11] != 0 || x[15] != 1)
+      // Exporters leave rounding there.
+      const auto is = [](double value, double wanted) { return std::abs(value - wanted) < 1e-6; };
+      for (int c = 0; c < 4; ++c)
+        if (is(m[c][3], c == 3)) m[c][3] = c == 3;
+      if (m[0][3] != 0 || m[1][3] != 0 || m[2][3] != 0 || m[3][3] != 1)
         throw Error(d.where, fmt::format("{}: every fourth number must be 0, the last one 1 "
                                          "(projections belong to the camera)",
                                          directiveName(d.kind)));

@@ -138,6 +138,7 @@ class SceneBuilder {
   Object* openObject_ = nullptr;
   Shapes shapes_;  // of the scene itself
 
+  std::optional<Directive> renderer_;  // one that integrates light itself
   std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
   std::optional<std::uint64_t> seed_;  // of Option "integer seed"
   ColorSpace colorSpace_ = ColorSpace::srgb;

@@ -146,6 +146,19 @@ TEST(Builder, OnlyAreaLightsShineFromShapes) {
   EXPECT_TRUE(contains(failure(world("LightSource \"diffuse\"")), "AreaLightSource"));
 }
 
+TEST(Builder, RoundingInTheLastRowOfATransformIsNoProjection) {
+  expectColour(
+      seen(kRed + "ConcatTransform [1 0 0 6.9e-18 0 1 0 0 0 0 1 -1e-12 0 0 0 0.9999999]\n" + kDisk),
+      {1, 0, 0});
+}
+
+TEST(Builder, MetropolisRendererIsReadAsPath) {
+  const auto said =
+      warnings(world(kDisk, "Renderer \"metropolis\" \"integer bootstrapsamples\" 9"));
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_TRUE(contains(said[0], "\"path\" takes its place")) << said[0];
+}
+
 TEST(Builder, ProjectionsAreNoTransformsOfTheWorld) {
   for (const char* name : {"Transform", "ConcatTransform"}) {
     const std::string keyword(name);
