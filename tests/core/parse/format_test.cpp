@@ -131,7 +131,7 @@ TEST(Format, LongStatementsAreWrapped) {
   const std::string text = printed("AttributeBegin " + list);
   EXPECT_TRUE(
       text.starts_with("AttributeBegin\n  Shape \"mesh\"\n      \"integer indices\" [0 1 2]\n"
-                       "      \"point3 P\" [\n        0 0.125 0.25 "));
+                       "      \"point P\" [\n        0 0.125 0.25 "));
   EXPECT_TRUE(text.ends_with(" -1 -1\n      ]\n"));
   std::size_t longest = 0;
   for (std::size_t at = 0; at < text.size();) {
