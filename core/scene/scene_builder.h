@@ -1,7 +1,7 @@
 #pragma once
-// The builder behind SceneReader (scene_reader.cpp), in parts: statements (builder.cpp), what shapes are made of
-// (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what waits until the end
-// (builder_finish.cpp).
+// The builder behind SceneReader (scene_reader.cpp), in parts: statements (builder.cpp), what
+// shapes are made of (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what
+// waits until the end (builder_finish.cpp).
 
 #include "core/base/colorspace.h"
 #include "core/base/parallel.h"
