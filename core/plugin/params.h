@@ -117,6 +117,8 @@ class Params {
 
   // -- errors -------------------------------------------------------------------------------------
   bool has(const std::string& name) const;
+  // Whether reading it gives something else than the fallback: it is given, or among the defaults.
+  bool available(const std::string& name) const;
   // The plug-in's own complaint, at the parameter's value (or the statement, if it is absent).
   [[noreturn]] void fail(const std::string& name, const std::string& message) const;
   // Throws if the parameter is absent: call after the reading that declared it.
@@ -158,8 +160,6 @@ class Params {
 
   const Param* find(const std::string& name, std::span<const ParamType> types,
                     std::string_view wanted);
-  // Whether find() would find one: given, or among the defaults.
-  bool available(const std::string& name) const;
   void refuseOthers(const std::string& name, const std::string& value,
                     std::span<const std::string_view> allowed) const;
   void declare(const std::string& name, std::string_view type, std::string fallback,

@@ -36,6 +36,17 @@ TEST_F(ImageMap, CodeValuesAreDecoded) {
   EXPECT_FLOAT_EQ(texture(pfm, {flag("gamma", true)})->evaluate(at(0, 0)), decodeSrgb(0.25F));
 }
 
+// pbrt-v1 and v2 take code values as light: what their generation says where the scene does not.
+TEST_F(ImageMap, TheGenerationMaySayThatCodeValuesAreLight) {
+  folder.write("a.tga", std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\x20\x33\x66\x99", 21));
+  const ParamList list = {text("filename", (folder.path() / "a.tga").string())};
+  const ParamList defaults = {flag("gamma", false)};
+  Params params("imagemap", {}, {&list}, nullptr, {}, &defaults);
+  const auto map =
+      create<Texture<Spectrum>>(loader().open(PluginKind::texture, "imagemap"), params, {});
+  EXPECT_FLOAT_EQ(map->evaluate(at(0, 0)).x, 0.6F);
+}
+
 TEST_F(ImageMap, ReadsPngAndExr) {
   Image image;
   image.window = {{0, 0}, {2, 1}};

@@ -46,7 +46,7 @@ std::shared_ptr<const MipMap> sharedMipMap(const std::filesystem::path& file,
 
 Decoding readDecoding(Params& p) {
   Decoding decoding;
-  if (p.has("gamma") || p.describing())
+  if (p.available("gamma") || p.describing())
     decoding = {p.flag("gamma", true,
                        "whether the sRGB curve is undone; if nothing is said it is for files of "
                        "code values: .png, .tga and .jpg")
