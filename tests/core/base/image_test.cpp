@@ -208,6 +208,20 @@ TEST_F(ImageTest, BrokenExrIsAnErrorThatNamesTheFile) {
   }
 }
 
+// Or else these few bytes ask for 1.75 GiB.
+TEST_F(ImageTest, AttributeOfAnExrIsNoLongerThanTheFile) {
+  const fs::path path = folder / "long.exr";
+  Image image = whole(1, 1, {"Y"});
+  image.attributes["software"] = std::string("x");
+  writeImage(path, image);
+  std::string bytes = bytesOf(path);
+  const std::string attribute("software\0string\0\1", 17);
+  ASSERT_NE(bytes.find(attribute), std::string::npos);
+  bytes[bytes.find(attribute) + 19] = 0x70;
+  writeBytes(path, bytes);
+  EXPECT_NE(ioError([&] { readExr(path); }).find("longer than the file"), std::string::npos);
+}
+
 TEST_F(ImageTest, DamagedExrNeverCrashes) {
   const fs::path path = folder / "damaged.exr";
   writeImage(path, whole(16, 16, {"R", "G", "B"}));
