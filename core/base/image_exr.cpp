@@ -95,20 +95,20 @@ class Stream : public Imf::OStream {
 };
 
 // The C++ reader makes room for an attribute before it looks whether the file is that long: a few
-// bytes ask for 2 GiB. The C reader looks first, and tells; it says nothing of other errors here.
-void checkAttributeSizes(const std::filesystem::path& path) {
-  bool tooLong = false;
+// bytes ask for 2 GiB. The C reader looks first. It may go on after an error, but tells it.
+void checkHeader(const std::filesystem::path& path) {
+  std::string error;
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
-  options.user_data = &tooLong;
-  options.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
-    void* flag = nullptr;
-    if (code == EXR_ERR_ATTR_SIZE_MISMATCH && exr_get_user_data(context, &flag) == EXR_ERR_SUCCESS)
-      *static_cast<bool*>(flag) = true;
+  options.user_data = &error;
+  options.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* message) {
+    void* first = nullptr;
+    if (exr_get_user_data(context, &first) != EXR_ERR_SUCCESS) return;
+    if (auto& text = *static_cast<std::string*>(first); text.empty()) text = message;
   };
   exr_context_t file = nullptr;
   exr_start_read(&file, path.c_str(), &options);
   exr_finish(&file);
-  if (tooLong) throw std::runtime_error("it has an attribute that is longer than the file");
+  if (!error.empty()) throw std::runtime_error(error);
 }
 
 }  // namespace
@@ -133,7 +133,7 @@ void encodeExr(std::FILE* to, const Image& image) {
 }
 
 Image readExr(const std::filesystem::path& path) try {
-  checkAttributeSizes(path);
+  checkHeader(path);
   Imf::InputFile file(path.c_str(), 0);
   const Imf::Header& header = file.header();
   const Imath::Box2i& window = header.dataWindow();
