@@ -118,12 +118,12 @@ class InStream : public Imf::IStream {
 };
 
 // The C++ reader makes room for an attribute before it looks whether the file is that long: a few
-// bytes ask for 2 GiB. The C reader looks first, and tells; it says nothing of other errors here.
-void checkAttributeSizes(const std::string& name, std::string_view bytes) {
+// bytes ask for 2 GiB. The C reader looks first. It may go on after an error, but tells it.
+void checkHeader(const std::string& name, std::string_view bytes) {
   struct Probe {
     std::string_view bytes;
-    bool tooLong = false;
-  } probe{bytes};
+    std::string error;  // the first
+  } probe{bytes, {}};
   exr_context_initializer_t options = EXR_DEFAULT_CONTEXT_INITIALIZER;
   options.user_data = &probe;
   options.size_fn = [](exr_const_context_t, void* user) {
@@ -135,15 +135,15 @@ void checkAttributeSizes(const std::string& name, std::string_view bytes) {
     if (offset > all.size()) return std::int64_t{-1};
     return static_cast<std::int64_t>(all.copy(static_cast<char*>(to), size, offset));
   };
-  options.error_handler_fn = [](exr_const_context_t context, exr_result_t code, const char*) {
+  options.error_handler_fn = [](exr_const_context_t context, exr_result_t, const char* message) {
     void* user = nullptr;
-    if (code == EXR_ERR_ATTR_SIZE_MISMATCH && exr_get_user_data(context, &user) == EXR_ERR_SUCCESS)
-      static_cast<Probe*>(user)->tooLong = true;
+    if (exr_get_user_data(context, &user) != EXR_ERR_SUCCESS) return;
+    if (auto& error = static_cast<Probe*>(user)->error; error.empty()) error = message;
   };
   exr_context_t file = nullptr;
   exr_start_read(&file, name.c_str(), &options);
   exr_finish(&file);
-  if (probe.tooLong) throw std::runtime_error("it has an attribute that is longer than the file");
+  if (!probe.error.empty()) throw std::runtime_error(probe.error);
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ void encodeExr(std::FILE* to, const Image& image) {
 
 Image readExr(const std::filesystem::path& path) try {
   const std::string bytes = readFile(path);
-  checkAttributeSizes(path.string(), bytes);
+  checkHeader(path.string(), bytes);
   InStream stream(path.string(), bytes);
   Imf::InputFile file(stream, 0);
   const Imf::Header& header = file.header();

@@ -110,6 +110,7 @@ class ImageMap final : public Texture<T> {
         p.file("filename", "the picture: .png, .jpg, .tga, .exr, .hdr or .pfm");
     if (p.describing()) return;
     p.require("filename");
+    if (file.empty()) p.fail("filename", "names no file");
     try {
       map_ = sharedMipMap(file, decoding);
     } catch (const Error& error) {

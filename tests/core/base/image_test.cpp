@@ -219,7 +219,7 @@ TEST_F(ImageTest, AttributeOfAnExrIsNoLongerThanTheFile) {
   ASSERT_NE(bytes.find(attribute), std::string::npos);
   bytes[bytes.find(attribute) + 19] = 0x70;
   writeBytes(path, bytes);
-  EXPECT_NE(ioError([&] { readExr(path); }).find("longer than the file"), std::string::npos);
+  EXPECT_NE(ioError([&] { readExr(path); }).find("Invalid size"), std::string::npos);
 }
 
 TEST_F(ImageTest, DamagedExrNeverCrashes) {
