@@ -16,10 +16,8 @@ std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
     case DirectiveKind::Material:
       return {{PluginKind::material, d.words.at(0)}};
     case MakeNamedMaterial:
-      for (const Param& p : d.params)
-        if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
-            type && p.name == "type" && !type->empty())
-          return {{PluginKind::material, type->front()}};
+      if (std::string type = namedMaterialType(d); !type.empty())
+        return {{PluginKind::material, std::move(type)}};
       return {};
     case DirectiveKind::Texture:
       return {{PluginKind::texture, d.words.at(2)}};

@@ -93,11 +93,7 @@ std::uint8_t generationsOf(const Directive& d) {
     case ActiveTransform:
       return kV2 | kV3 | kV4;
     case MakeNamedMaterial:
-      for (const Param& p : d.params)
-        if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
-            type && p.name == "type" && !type->empty())
-          return generationsOf(kMaterials, type->front()) & (kV2 | kV3 | kV4);
-      return kV2 | kV3 | kV4;
+      return generationsOf(kMaterials, namedMaterialType(d)) & (kV2 | kV3 | kV4);
     case Integrator:
     case MediumInterface:
     case MakeNamedMedium:
@@ -193,6 +189,14 @@ const std::vector<DefaultsRow>& defaultsTable() {
 }
 
 }  // namespace
+
+std::string namedMaterialType(const Directive& d) {
+  for (const Param& p : d.params)
+    if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
+        type && p.name == "type" && !type->empty())
+      return type->front();
+  return "";
+}
 
 std::optional<Dialect> dialectByName(std::string_view name) {
   for (const Dialect d : {Dialect::v1, Dialect::v2, Dialect::v3, Dialect::v4})
