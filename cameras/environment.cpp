@@ -79,4 +79,5 @@ class EnvironmentCamera final : public Camera {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Camera, pbrt::EnvironmentCamera, "environment", "sees all around, in one picture")
+PBRT_PLUGIN(Camera, pbrt::EnvironmentCamera, "environment",
+            "sees all around at once, as in a map of the world")

@@ -45,4 +45,4 @@ class OrthographicCamera final : public ProjectiveCamera {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Camera, pbrt::OrthographicCamera, "orthographic",
-            "parallel rays: distance does not change the size")
+            "sees by parallel rays, as in a plan: distance does not change the size")

@@ -63,4 +63,4 @@ class PerspectiveCamera final : public ProjectiveCamera {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Camera, pbrt::PerspectiveCamera, "perspective",
-            "sees as an eye does, near things large")
+            "sees as an eye or a photo camera does: what is near is large")

@@ -17,4 +17,5 @@ class BoxFilter final : public Filter {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Filter, pbrt::BoxFilter, "box", "the same weight for all samples nearby")
+PBRT_PLUGIN(Filter, pbrt::BoxFilter, "box",
+            "the plain mean of the samples in a pixel: fine patterns turn into false ones")

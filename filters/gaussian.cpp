@@ -29,4 +29,5 @@ class GaussianFilter final : public Filter {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Filter, pbrt::GaussianFilter, "gaussian", "a Gaussian that ends at zero")
+PBRT_PLUGIN(Filter, pbrt::GaussianFilter, "gaussian",
+            "a bell-shaped weight: soft, and free of ripples")

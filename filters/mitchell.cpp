@@ -35,4 +35,5 @@ class MitchellFilter final : public Filter {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Filter, pbrt::MitchellFilter, "mitchell", "cubics that balance blur against ringing")
+PBRT_PLUGIN(Filter, pbrt::MitchellFilter, "mitchell",
+            "sharper than a bell: cubics that balance blur against ripples along edges")

@@ -29,4 +29,5 @@ class SincFilter final : public Filter {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Filter, pbrt::SincFilter, "sinc", "the ideal low-pass filter, windowed")
+PBRT_PLUGIN(Filter, pbrt::SincFilter, "sinc",
+            "keeps all detail that pixels can show, at the cost of ripples along edges")

@@ -18,4 +18,5 @@ class TriangleFilter final : public Filter {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Filter, pbrt::TriangleFilter, "triangle", "a weight that falls linearly")
+PBRT_PLUGIN(Filter, pbrt::TriangleFilter, "triangle",
+            "weights that fall evenly to zero: simple and soft")

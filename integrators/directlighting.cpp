@@ -122,4 +122,4 @@ class DirectLighting final : public SamplingIntegrator {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Integrator, pbrt::DirectLighting, "directlighting",
-            "light from the lights by multiple importance sampling, mirror images and refraction")
+            "light straight from the lamps, mirror images and refraction, with little noise")

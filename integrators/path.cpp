@@ -121,4 +121,4 @@ class Path final : public SamplingIntegrator {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Integrator, pbrt::Path, "path",
-            "all light, by paths from the camera with one light sampled at every vertex")
+            "all light, however often it bounces, by random paths from the camera")

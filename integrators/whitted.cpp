@@ -51,4 +51,4 @@ class Whitted final : public SamplingIntegrator {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Integrator, pbrt::Whitted, "whitted",
-            "light from the lights, and mirror images and refraction")
+            "light straight from the lamps, mirror images and refraction (Whitted 1980)")

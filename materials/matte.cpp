@@ -35,4 +35,5 @@ class Matte final : public Material {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Material, pbrt::Matte, "matte", "a diffuse surface, smooth like plaster or rough")
+PBRT_PLUGIN(Material, pbrt::Matte, "matte",
+            "a dull surface that scatters light evenly, such as paper, plaster or clay")

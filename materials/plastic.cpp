@@ -48,4 +48,5 @@ class Plastic final : public Material {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Material, pbrt::Plastic, "plastic", "a diffuse surface under a glossy coat")
+PBRT_PLUGIN(Material, pbrt::Plastic, "plastic",
+            "a coloured, dull body with white glossy highlights")

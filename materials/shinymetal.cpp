@@ -43,4 +43,5 @@ class ShinyMetal final : public Material {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Material, pbrt::ShinyMetal, "shinymetal", "metal: a mirror and a glossy highlight")
+PBRT_PLUGIN(Material, pbrt::ShinyMetal, "shinymetal",
+            "polished metal: a mirror with a glossy highlight about every lamp")

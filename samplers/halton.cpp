@@ -145,4 +145,5 @@ class HaltonSampler final : public Sampler {
 }  // namespace
 }  // namespace pbrt
 
-PBRT_PLUGIN(Sampler, pbrt::HaltonSampler, "halton", "Halton's sequence, scrambled in every pixel")
+PBRT_PLUGIN(Sampler, pbrt::HaltonSampler, "halton",
+            "Halton's sequence: evenly spread for any number of samples")

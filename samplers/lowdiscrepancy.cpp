@@ -112,4 +112,4 @@ class LowDiscrepancySampler final : public Sampler {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Sampler, pbrt::LowDiscrepancySampler, "lowdiscrepancy",
-            "a shuffled (0,2)-sequence in every pair of dimensions")
+            "evenly spread in every pair of dimensions, for a power of two of samples")

@@ -35,4 +35,5 @@ class RandomSampler final : public Sampler {
 }  // namespace
 }  // namespace pbrt
 
-PBRT_PLUGIN(Sampler, pbrt::RandomSampler, "random", "independent uniform samples")
+PBRT_PLUGIN(Sampler, pbrt::RandomSampler, "random",
+            "independent random numbers: the simplest, and the noisiest")

@@ -24,4 +24,4 @@ class Hyperboloid final : public SweptSegment {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Shape, pbrt::Hyperboloid, "hyperboloid",
-            "what a slanting rod sweeps as it turns about the z axis")
+            "a cooling tower: what a slanting rod sweeps as it turns about the z axis")

@@ -269,4 +269,5 @@ class LoopSubdiv final : public MeshShape {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Shape, pbrt::LoopSubdiv, "loopsubdiv", "a smooth surface from a coarse mesh")
+PBRT_PLUGIN(Shape, pbrt::LoopSubdiv, "loopsubdiv",
+            "a smooth surface, made by rounding off a coarse mesh of triangles")

@@ -160,4 +160,5 @@ class Nurbs final : public MeshShape {
 
 }  // namespace pbrt
 
-PBRT_PLUGIN(Shape, pbrt::Nurbs, "nurbs", "a smooth patch over a net of control points")
+PBRT_PLUGIN(Shape, pbrt::Nurbs, "nurbs",
+            "a smooth curved patch, pulled into form by a net of control points")

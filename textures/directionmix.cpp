@@ -26,5 +26,6 @@ class DirectionMix final : public Texture<T> {
 
 }  // namespace pbrt
 
-PBRT_TEXTURE_PLUGIN(pbrt::DirectionMix, "directionmix",
-                    "between two textures, by how the surface is turned")
+PBRT_TEXTURE_PLUGIN(
+    pbrt::DirectionMix, "directionmix",
+    "one texture where the surface faces a direction, another where it is edge-on to it")

@@ -25,4 +25,5 @@ class Mix final : public Texture<T> {
 
 }  // namespace pbrt
 
-PBRT_TEXTURE_PLUGIN(pbrt::Mix, "mix", "between two textures, by a third")
+PBRT_TEXTURE_PLUGIN(pbrt::Mix, "mix",
+                    "a blend of two textures, in the shares that a third one gives")

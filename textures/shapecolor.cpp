@@ -27,4 +27,5 @@ class ShapeColor final : public Texture<T> {
 
 }  // namespace pbrt
 
-PBRT_TEXTURE_PLUGIN(pbrt::ShapeColor, "shapecolor", "the colours that a shape brings along")
+PBRT_TEXTURE_PLUGIN(pbrt::ShapeColor, "shapecolor",
+                    "the colours that a shape brings along, such as those of metaballs")

@@ -26,4 +26,4 @@ class Uv final : public Texture<T> {
 
 }  // namespace pbrt
 
-PBRT_TEXTURE_PLUGIN(pbrt::Uv, "uv", "shows texture coordinates as red and green")
+PBRT_TEXTURE_PLUGIN(pbrt::Uv, "uv", "shows the coordinates (u, v) of the surface as red and green")

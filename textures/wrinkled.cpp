@@ -26,4 +26,5 @@ class Wrinkled final : public Texture<T> {
 
 }  // namespace pbrt
 
-PBRT_TEXTURE_PLUGIN(pbrt::Wrinkled, "wrinkled", "creases: absolute noise at several scales")
+PBRT_TEXTURE_PLUGIN(pbrt::Wrinkled, "wrinkled",
+                    "creases, as of crumpled paper or leather: noise at several scales")
