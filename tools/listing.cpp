@@ -109,6 +109,22 @@ std::string inMarkdown(std::string text) {
   return text;
 }
 
+// A plug-in in Markdown: its picture, its sentence, its parameters. Kind and name make a heading
+// that links can name, as several kinds have a "mix".
+std::string chapter(const PluginInfo& plugin, PluginKind kind) {
+  const std::string place = fmt::format("shelf/{}/{}", kindFolder(kind), plugin.name);
+  std::string text = fmt::format("\n### {0} {1}\n\n[![{0} \"{1}\"]({2}.png)]({2}.pbrt)\n\n{3}\n",
+                                 kindName(kind), plugin.name, place, inMarkdown(plugin.summary));
+  const auto parameters = declarations(plugin, kind);
+  if (parameters.empty()) return text;
+  text += "\n| parameter | default | meaning |\n| --- | --- | --- |\n";
+  for (const Declaration& d : parameters)
+    text += fmt::format("| {} `{}` | {} | {}{} |\n", d.type, d.name,
+                        d.defaultValue == "-" ? "" : inMarkdown(d.defaultValue),
+                        inMarkdown(d.meaning), d.unit.empty() ? "" : fmt::format(" [{}]", d.unit));
+  return text;
+}
+
 }  // namespace
 
 std::string listPlugins(PluginLoader& loader) {
@@ -147,26 +163,25 @@ std::string describePlugin(PluginLoader& loader, const std::string& kindText,
 
 std::string describeAll(PluginLoader& loader) {
   std::string text =
-      "# Plug-ins and their parameters\n\nMade by `pbrt --describe all`; do not edit. What the "
-      "types mean is in [scene-format.md](scene-format.md).\n";
+      "# Plug-ins and their parameters\n\nMade by `./dev docs`; do not edit. What the types mean "
+      "is in "
+      "[scene-format.md](scene-format.md). A picture leads to the scene that it is of, a few lines "
+      "to copy.\n\n| kind | plug-ins |\n| --- | --- |\n";
+  std::string chapters;
   for (std::uint32_t i = 0; i < kPluginKinds; ++i) {
     const auto kind = static_cast<PluginKind>(i);
-    std::string title(kindFolder(kind));
+    const std::string_view folder = kindFolder(kind);
+    std::string title(folder);
     title[0] = static_cast<char>(std::toupper(title[0]));
-    text += fmt::format("\n## {}\n", title);
+    text += fmt::format("| [{}](#{}) |", title, folder);
+    chapters += fmt::format("\n## {}\n", title);
     for (const std::string& name : loader.available(kind)) {
-      const PluginInfo& plugin = loader.open(kind, name);
-      text += fmt::format("\n### {}\n\n{}\n", name, inMarkdown(plugin.summary));
-      const auto parameters = declarations(plugin, kind);
-      if (parameters.empty()) continue;
-      text += "\n| parameter | default | meaning |\n| --- | --- | --- |\n";
-      for (const Declaration& d : parameters)
-        text +=
-            fmt::format("| {} `{}` | {} | {}{} |\n", d.type, d.name,
-                        d.defaultValue == "-" ? "" : inMarkdown(d.defaultValue),
-                        inMarkdown(d.meaning), d.unit.empty() ? "" : fmt::format(" [{}]", d.unit));
+      text += fmt::format(" [{}](#{}-{})", name, kindName(kind), name);
+      chapters += chapter(loader.open(kind, name), kind);
     }
+    text += " |\n";
   }
+  text += chapters;
   text +=
       "\n## Names of other generations\n\n| kind | name | of pbrt- | here | renamed parameters |\n"
       "| --- | --- | --- | --- | --- |\n";

@@ -41,7 +41,7 @@ std::vector<std::string> dictionary() {
 
   PluginLoader loader(PluginLoader::searchPath(""));
   const std::string all = describeAll(loader);
-  const std::regex pattern("\n### (\\S+)|\n\\| ([a-z0-9, ]+) `(\\w+)`"), separator(", | or ");
+  const std::regex pattern("\n### \\w+ (\\S+)|\n\\| ([a-z0-9, ]+) `(\\w+)`"), separator(", | or ");
   for (std::sregex_iterator i(all.begin(), all.end(), pattern), end; i != end; ++i) {
     const std::string plugin = (*i)[1], types = (*i)[2], name = (*i)[3];
     if (!plugin.empty()) words.push_back(inQuotes(plugin));
