@@ -163,23 +163,23 @@ std::string describePlugin(PluginLoader& loader, const std::string& kindText,
 
 std::string describeAll(PluginLoader& loader) {
   std::string text =
-      "# Plug-ins and their parameters\n\nMade by `./dev docs`; do not edit. What the types mean "
-      "is in "
-      "[scene-format.md](scene-format.md). A picture leads to the scene that it is of, a few lines "
-      "to copy.\n\n| kind | plug-ins |\n| --- | --- |\n";
+      "# Plug-ins and their parameters\n\nMade by `./dev docs`; do not edit. What the types mean: "
+      "[scene-format.md](scene-format.md). Every picture leads to the scene that it shows, a few "
+      "lines to copy."
+      "\n\n![All of them](shelf.png)\n\n| kind | plug-ins |\n| --- | --- |\n";
   std::string chapters;
   for (std::uint32_t i = 0; i < kPluginKinds; ++i) {
     const auto kind = static_cast<PluginKind>(i);
     const std::string_view folder = kindFolder(kind);
     std::string title(folder);
     title[0] = static_cast<char>(std::toupper(title[0]));
-    text += fmt::format("| [{}](#{}) |", title, folder);
+    std::vector<std::string> links;
     chapters += fmt::format("\n## {}\n", title);
     for (const std::string& name : loader.available(kind)) {
-      text += fmt::format(" [{}](#{}-{})", name, kindName(kind), name);
+      links.push_back(fmt::format("[{}](#{}-{})", name, kindName(kind), name));
       chapters += chapter(loader.open(kind, name), kind);
     }
-    text += " |\n";
+    text += fmt::format("| [{}](#{}) | {} |\n", title, folder, fmt::join(links, ", "));
   }
   text += chapters;
   text +=
