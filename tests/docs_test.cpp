@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -99,6 +101,32 @@ TEST(Docs, LinksLeadToFiles) {
       const std::string target = link[1];
       if (target.find("://") != std::string::npos) continue;
       EXPECT_TRUE(fs::exists(document.parent_path() / target)) << document << ": " << target;
+    }
+  }
+}
+
+// What links name the headings of a document by.
+std::set<std::string> anchors(const fs::path& document) {
+  std::set<std::string> found;
+  for (const std::string& line : linesOf(document)) {
+    if (!line.starts_with('#')) continue;
+    std::string anchor;
+    for (const unsigned char c : line.substr(line.find_first_not_of("# ")))
+      if (std::isalnum(c) || c == ' ' || c == '-' || c == '_')
+        anchor += c == ' ' ? '-' : static_cast<char>(std::tolower(c));
+    found.insert(anchor);
+  }
+  return found;
+}
+
+TEST(Docs, LinksLeadToHeadings) {
+  for (const fs::path& document : documents()) {
+    const std::string text = textOf(document);
+    std::map<fs::path, std::set<std::string>> headings;
+    for (const std::smatch& link : matches(text, std::regex(R"(\]\(([\w./-]*)#([^)]+)\))"))) {
+      const fs::path target = link.length(1) ? document.parent_path() / link.str(1) : document;
+      if (!headings.contains(target)) headings[target] = anchors(target);
+      EXPECT_TRUE(headings[target].contains(link.str(2))) << document << ": " << link.str();
     }
   }
 }

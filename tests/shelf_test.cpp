@@ -88,7 +88,7 @@ TEST_P(Shelf, SceneUsesThePluginAndIsWhatThePictureShows) {
   double squares = 0;
   for (std::size_t i = 0; i < now.size(); ++i) squares += sqr(now[i] - then[i]);
   EXPECT_LT(std::sqrt(squares / static_cast<double>(now.size())), 0.02)  // noise is 0.012 at most
-      << "it is of another scene: ./dev docs renders it anew";
+      << "it is of another scene: ./dev docs (--all, if a stage changed) renders it anew";
 }
 
 TEST_P(Shelf, PictureIsNeitherDarkNorGlaring) {
