@@ -41,22 +41,25 @@ class LightChoice {
 
   // The number u.x chooses the light; what is left of it is uniform again.
   Chosen choose(Point2 u) const {
-    if (strategy_ == LightStrategy::uniform) return take(uniformly(u.x), u.y);
-    if (u.x < kUniform) return take(uniformly(u.x / kUniform), u.y);
+    if (strategy_ == LightStrategy::uniform) return uniformly(u);
+    if (u.x < kUniform) return uniformly({u.x / kUniform, u.y});
     const double x = std::min((double{u.x} - kUniform) / (1 - kUniform), 1 - 0x1p-53);
-    if (strategy_ == LightStrategy::spatial)
-      return take(world_.lightTree().choose(p_, side_, x), u.y);
+    if (strategy_ == LightStrategy::spatial) {
+      const LightTree::Chosen s = world_.lightTree().choose(p_, side_, x);
+      return {light(s.light),
+              mixed(s.chance),
+              {std::min(static_cast<float>(s.rest), kOneMinusEpsilon), u.y}};
+    }
     const auto cell = world_.lightPowers().sample({static_cast<float>(x), 0});
-    return take({static_cast<std::uint32_t>(cell.x), cell.within.x}, u.y);
+    return {light(cell.x), mixed(cell.chance), {cell.within.x, u.y}};
   }
 
   // That of choose() for this light.
   float chance(const Light& light) const {
     if (strategy_ == LightStrategy::uniform) return 1 / n_;
-    const double by = strategy_ == LightStrategy::spatial
-                          ? world_.lightTree().chance(p_, side_, light.number)
-                          : world_.lightPowers().chance(static_cast<int>(light.number), 0);
-    return static_cast<float>(kUniform / n_ + (1 - kUniform) * by);
+    if (strategy_ == LightStrategy::spatial)
+      return mixed(world_.lightTree().chance(p_, side_, light.number));
+    return mixed(world_.lightPowers().chance(static_cast<int>(light.number), 0));
   }
 
  private:
@@ -66,13 +69,17 @@ class LightChoice {
     return strategy == LightStrategy::spatial ? !world.lightTree().empty()
                                               : world.lightPowers().total() > 0;
   }
-  LightTree::Chosen uniformly(float u) const {
-    const float x = u * n_, whole = std::min(std::floor(x), n_ - 1);
-    return {static_cast<std::uint32_t>(whole), x - whole};
+  template <class Number>
+  const Light& light(Number number) const {
+    return *world_.lights()[static_cast<std::size_t>(number)];
   }
-  Chosen take(const LightTree::Chosen& chosen, float v) const {
-    const Light& light = *world_.lights()[chosen.light];
-    return {light, chance(light), {std::min(static_cast<float>(chosen.rest), kOneMinusEpsilon), v}};
+  float mixed(double chance) const {
+    return static_cast<float>(kUniform / n_ + (1 - kUniform) * chance);
+  }
+  Chosen uniformly(Point2 u) const {
+    const float x = u.x * n_, whole = std::min(std::floor(x), n_ - 1);
+    const Light& one = light(whole);
+    return {one, chance(one), {std::min(x - whole, kOneMinusEpsilon), u.y}};
   }
 
   const World& world_;

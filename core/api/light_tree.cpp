@@ -198,19 +198,21 @@ double LightTree::shareOfTree(const Point3& p, const Normal3& n) const {
 }
 
 LightTree::Chosen LightTree::choose(const Point3& p, const Normal3& n, double u) const {
-  const auto within = [&u](double share) {
+  double chance = 1;
+  const auto within = [&](double share) {
     const bool first = u < share;
+    chance *= first ? share : 1 - share;
     u = std::min(first ? u / share : (u - share) / (1 - share), 1 - 0x1p-53);
     return first;
   };
   if (!within(shareOfTree(p, n))) {
     const auto cell = irradiances_.sample({static_cast<float>(u), 0});
-    return {infinite_[static_cast<std::size_t>(cell.x)], cell.within.x};
+    return {infinite_[static_cast<std::size_t>(cell.x)], cell.within.x, chance * cell.chance};
   }
   std::uint32_t node = 0;
   while (nodes_[node].right != kNone)
     node = within(shareOfLeft(node, p, n)) ? node + 1 : nodes_[node].right;
-  return {nodes_[node].light, u};
+  return {nodes_[node].light, u, chance};
 }
 
 double LightTree::chance(const Point3& p, const Normal3& n, std::uint32_t light) const {

@@ -17,6 +17,7 @@ class LightTree {
   struct Chosen {
     std::uint32_t light = 0;  // its number
     double rest = 0;          // what is left of u: uniform in [0, 1)
+    double chance = 0;
   };
 
   LightTree() = default;  // of no lights

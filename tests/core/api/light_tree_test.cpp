@@ -82,6 +82,7 @@ TEST(LightTree, ChoosesWithTheChancesItStates) {
       for (int i = 0; i < draws; ++i) {
         const auto chosen = tree.choose(p, normal, rng.uniform());
         ASSERT_TRUE(chosen.rest >= 0 && chosen.rest < 1);
+        ASSERT_NEAR(chosen.chance, tree.chance(p, normal, chosen.light), 1e-12);
         ++counts[chosen.light];
       }
       double sum = 0;
