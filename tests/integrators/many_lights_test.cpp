@@ -122,6 +122,29 @@ INSTANTIATE_TEST_SUITE_P(Strategies, ManyLights,
                            return name;
                          });
 
+// Of two equal flat lamps in one place, one faces away, however they are made and placed: the tree
+// knows it.
+TEST(ManyLightsTree, KnowsWhichWayFlatLampsFace) {
+  const std::string square =
+      "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]\n"
+      "\"point P\" [-0.1 -0.1 0  0.1 -0.1 0  0.1 0.1 0  -0.1 0.1 0]";
+  for (const std::string& shape :
+       {square, "Scale -1 1 1 " + square, "Rotate 180 1 0 0 Scale 2 2 0.5 " + square,
+        square + " \"normal N\" [0 0 -1  0 0 -1  0 0 -1  0 0 -1]",
+        std::string("Scale 1 -1 3 Shape \"disk\" \"float radius\" 0.1")}) {
+    std::string world = kFloor;
+    for (const char* turn : {"", "ReverseOrientation"})
+      world += fmt::format(
+          "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [9 9 9]\n{} {} Translate 0 0 1 {} "
+          "AttributeEnd\n",
+          kBlack, turn, shape);
+    const Estimate spatial = estimate(kFromAbove, byPath("spatial"), world);
+    const Estimate uniform = estimate(kFromAbove, byPath("uniform"), world);
+    expectSame(spatial, uniform);
+    EXPECT_LT(5 * spatial.variance, uniform.variance) << shape;
+  }
+}
+
 // A hundred thousand points over the floor, of intensities between 0.01 and 1, within 50 units.
 TEST(ManyLightsScale, AHundredThousandPoints) {
   Rng rng(1);
