@@ -2,6 +2,7 @@
 
 #include "core/api/direct.h"
 #include "core/api/integrator.h"
+#include "core/api/light_choice.h"
 #include "core/api/specular.h"
 #include "core/plugin/plugin.h"
 
@@ -12,12 +13,17 @@ class DirectLighting final : public SamplingIntegrator {
  public:
   static constexpr std::uint8_t kSampledLobes = kAllLobes & ~kSpecular;
   static constexpr int kMostSamples = 64;  // of one light at one point, at a time
-  static constexpr std::string_view kStrategies[] = {"all", "one"};
+  static constexpr std::string_view kStrategies[] = {"all", "one", "weighted"};
 
   explicit DirectLighting(Params& p)
-      : maxDepth_(p.integer("maxdepth", 5, 0, 1000, "longest chain of mirrors and glass")),
-        all_(p.choice("strategy", kStrategies, "all",
-                      "sample all lights, or one that is chosen at random") == "all") {}
+      : maxDepth_(p.integer("maxdepth", 5, 0, 1000, "longest chain of mirrors and glass")) {
+    const std::string strategy =
+        p.choice("strategy", kStrategies, "all",
+                 "sample all lights, or one: each as often, or weighted by what it may send to the "
+                 "point");
+    all_ = strategy == "all";
+    choice_ = strategy == "one" ? LightStrategy::uniform : LightStrategy::spatial;
+  }
 
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch& scratch) const override {
@@ -37,10 +43,10 @@ class DirectLighting final : public SamplingIntegrator {
         for (const Light* light : world.lights())
           L += fromLight(world, *light, light->samples(), at, bsdf, sampler);
       } else {
-        const auto n = world.lights().size();
-        const auto i = static_cast<std::size_t>(sampler.get1D() * static_cast<float>(n));
-        L += static_cast<float>(n) *
-             fromLight(world, *world.lights()[std::min(i, n - 1)], 1, at, bsdf, sampler);
+        LightChoice choice(world, choice_);
+        choice.moveTo(at, bsdf);
+        const auto chosen = choice.choose({sampler.get1D(), 0});
+        L += fromLight(world, chosen.light, 1, at, bsdf, sampler) / chosen.chance;
       }
     }
     if (depth + 1 < maxDepth_)
@@ -115,7 +121,8 @@ class DirectLighting final : public SamplingIntegrator {
   }
 
   int maxDepth_;
-  bool all_;
+  bool all_ = true;  // all lights; or one, chosen by:
+  LightStrategy choice_ = LightStrategy::spatial;
 };
 
 }  // namespace

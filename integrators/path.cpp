@@ -12,7 +12,7 @@ namespace {
 
 class Path final : public SamplingIntegrator {
  public:
-  static constexpr std::string_view kStrategies[] = {"uniform", "spatial", "power"};
+  static constexpr std::string_view kStrategies[] = {"uniform", "power", "spatial"};
 
   explicit Path(Params& p)
       : maxDepth_(p.integer("maxdepth", 5, 0, 1'000'000, "most times that light is scattered")),
@@ -20,20 +20,19 @@ class Path final : public SamplingIntegrator {
                                    "paths that carry less of their light than this may be ended "
                                    "at random; 0: none is")) {
     const std::string strategy =
-        p.choice("lightsamplestrategy", kStrategies, "uniform",
-                 "a light's chance to be sampled: equal, or by what it would send to the point");
-    // pbrt-v3 has "spatial" as default, by tables made beforehand. Probing instead costs more than
-    // it gains unless lights differ much.
-    probes_ = strategy != "uniform";
-    if (strategy == "power")
-      p.warn("lightsamplestrategy", "lights do not tell their power: read as \"spatial\"");
+        p.choice("lightsamplestrategy", kStrategies, "spatial",
+                 "a light's chance to be sampled: equal, by its power, or by what it may send to "
+                 "the point");
+    strategy_ = strategy == "uniform" ? LightStrategy::uniform
+                : strategy == "power" ? LightStrategy::power
+                                      : LightStrategy::spatial;
   }
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,
               Sampler& sampler, Scratch& scratch) const override {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
-    LightChoice choice(world, probes_, scratch);
+    LightChoice choice(world, strategy_);
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out
     float pdf = 0;      // of the ray's direction; 0: no light could have been sampled instead
@@ -64,7 +63,7 @@ class Path final : public SamplingIntegrator {
       const Point2 uLight = sampler.get2D(), uBsdf = sampler.get2D();
       const Bsdf bsdf = world.bsdf(at, scratch);
       if (!choice.empty() && bsdf.has(kDiffuse | kGlossy)) {
-        choice.moveTo(at.p);
+        choice.moveTo(at, bsdf);
         L += throughput * direct(world, at, bsdf, choice.choose(uLight));
       }
 
@@ -96,9 +95,10 @@ class Path final : public SamplingIntegrator {
     return L / chosen.chance;
   }
 
-  // Whether a ray from p along w may meet any light.
+  // Whether a ray from p along w may meet any light. Tracing it is cheaper than asking many.
   static bool mayEndAtLight(const World& world, const Point3& p, const Vec3& w) {
-    return !world.infiniteLights().empty() ||
+    constexpr std::size_t many = 16;
+    return !world.infiniteLights().empty() || world.lights().size() > many ||
            std::ranges::any_of(world.lights(), [&](const Light* l) { return l->mayHit(p, w); });
   }
 
@@ -114,7 +114,7 @@ class Path final : public SamplingIntegrator {
 
   int maxDepth_;
   float rrThreshold_;
-  bool probes_ = false;  // see LightChoice
+  LightStrategy strategy_ = LightStrategy::spatial;
 };
 
 }  // namespace

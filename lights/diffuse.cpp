@@ -7,11 +7,12 @@ class Diffuse final : public Light {
  public:
   Diffuse(Params& p, const Setup& setup)
       : L_(p.emission("L", Spectrum(1), "radiance that every point emits into all directions")),
-        surface_(setup.surface) {
+        surface_(setup.surface),
+        box_(setup.box) {
     L_ *= readLightScale(p);
     twoSided_ = p.flag("twosided", false, "emits on both sides, not only on the normal's");
-    const double area = surface_ ? surface_->area() : 1;
-    const auto flux = static_cast<float>(std::numbers::pi * area * (twoSided_ ? 2 : 1));
+    area_ = surface_ ? surface_->area() : 1;
+    const auto flux = static_cast<float>(std::numbers::pi * area_ * (twoSided_ ? 2 : 1));
     L_ *= readTotal(p, "power", flux, "flux of the whole shape, for L = 1", "lm");
     samples_ = readLightSamples(p);
     if (!p.text("filename", "", "must be absent: a picture that the surface shows").empty())
@@ -45,10 +46,19 @@ class Diffuse final : public Light {
     return surface_->mayHit(DPoint3(p), DVec3(w));
   }
 
+  double power(double /*sceneRadius*/) const override {
+    return luminance(L_) * area_ * std::numbers::pi * (twoSided_ ? 2 : 1);
+  }
+  LightBounds bounds() const override {
+    return {box_, luminance(L_) * area_, surface_->normals(), 0, twoSided_};
+  }
+
  private:
   Spectrum L_;
   bool twoSided_ = false;
   const AreaSampler* surface_;
+  double area_ = 0;
+  Bounds3 box_;
 };
 
 }  // namespace pbrt

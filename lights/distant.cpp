@@ -23,6 +23,8 @@ class Distant final : public Light {
     s.pdf = 1;
     return s;
   }
+  double power(double sceneRadius) const override { return kPi * sqr(sceneRadius) * luminance(L_); }
+  LightBounds bounds() const override { return {{}, luminance(L_)}; }
 
  private:
   Spectrum L_;

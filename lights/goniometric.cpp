@@ -23,6 +23,10 @@ class Goniometric final : public Light {
     s.pdf = 1;
     return s;
   }
+  double power(double /*sceneRadius*/) const override { return luminance(intensity_ * flux_); }
+  LightBounds bounds() const override {
+    return boundsOfPoint(position_, power(0) / (4 * std::numbers::pi));
+  }
 
  private:
   Goniometric(Params& p, const Setup& setup, const std::filesystem::path& file)
@@ -38,7 +42,9 @@ class Goniometric final : public Light {
                ? SphereMap::equalarea
                : SphereMap::latlong;
     intensity_ *= readLightScale(p);
-    intensity_ *= readTotal(p, "power", flux(), "flux in all directions, for I = 1", "lm");
+    flux_ = flux();
+    intensity_ *=
+        readTotal(p, "power", luminance(flux_), "flux in all directions, for I = 1", "lm");
   }
 
   // w is a unit direction of light space.
@@ -49,9 +55,9 @@ class Goniometric final : public Light {
                        latlong ? Wrap::latlong : Wrap::octahedral);
   }
 
-  // Of the picture, for I = 1: its mean over the sphere, a sum over cells of equal solid angle.
-  float flux() const {
-    double sum = 0;
+  // The mean of the picture over the sphere, a sum over cells of equal solid angle.
+  Spectrum flux() const {
+    DVec3 sum(0);
     const int w = picture_.width(), h = picture_.height();
     for (int y = 0; y < h; ++y)
       for (int x = 0; x < w; ++x) {
@@ -59,9 +65,9 @@ class Goniometric final : public Light {
         const double angle = map_ == SphereMap::equalarea
                                  ? 4 * pi / h
                                  : 2 * pi * (std::cos(pi * y / h) - std::cos(pi * (y + 1) / h));
-        sum += luminance(picture_.pixel(x, y)) * angle / w;
+        sum += DVec3(picture_.pixel(x, y)) * (angle / w);
       }
-    return static_cast<float>(sum);
+    return Spectrum(sum);
   }
 
   Spectrum intensity_;
@@ -69,6 +75,7 @@ class Goniometric final : public Light {
   SphereMap map_ = SphereMap::latlong;
   glm::dmat3 toLight_;
   Point3 position_{};
+  Spectrum flux_{0};  // of the picture, for I = 1
 };
 
 }  // namespace

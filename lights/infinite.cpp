@@ -46,6 +46,12 @@ class Infinite final : public Light {
     return density(cells_.chance(cell(st.x, picture_.width()), y), y, 1 / length);
   }
 
+  double power(double sceneRadius) const override {
+    return std::numbers::pi * sqr(sceneRadius) * luminance(L_ * total_);
+  }
+  // The mean over all surfaces of the cosine, where it is above zero, is 1/4.
+  LightBounds bounds() const override { return {{}, luminance(L_ * total_) / 4}; }
+
  private:
   Infinite(Params& p, const Setup& setup, const std::filesystem::path& file)
       : L_(p.emission("L", Spectrum(1), "radiance, of which the picture takes its share")),
@@ -54,7 +60,8 @@ class Infinite final : public Light {
         toRender_(setup.toRender.matrix()),
         toLight_(setup.toRender.inverseMatrix()),
         determinant_(std::abs(glm::determinant(toRender_))),
-        cells_(picture_.width(), weights(picture_, map_)) {
+        cells_(picture_.width(), weights(picture_, map_)),
+        total_(integral(picture_, map_)) {
     L_ *= readLightScale(p);
     L_ *= readTotal(p, "illuminance", illuminance(),
                     "of a surface that faces +z of the light's space, for L = 1; instead of the "
@@ -123,6 +130,17 @@ class Infinite final : public Light {
     return result;
   }
 
+  // Of the picture over the sphere.
+  static Spectrum integral(const Picture& picture, SphereMap map) {
+    DVec3 sum(0);
+    for (int y = 0; y < picture.height(); ++y) {
+      DVec3 row(0);
+      for (int x = 0; x < picture.width(); ++x) row += DVec3(picture.pixel(x, y));
+      sum += row * shareOfRow(picture, map, y);
+    }
+    return Spectrum(sum * (4 * std::numbers::pi / picture.width()));
+  }
+
   // From the sphere about a cell to render space: a map that is no rotation changes solid angles by
   // its determinant over the cube of how it stretches the direction.
   float density(double chance, int y, double stretch) const {
@@ -149,6 +167,7 @@ class Infinite final : public Light {
   glm::dmat3 toRender_, toLight_;
   double determinant_;
   Distribution2D cells_;
+  Spectrum total_;  // the picture's integral over the sphere
 };
 
 }  // namespace

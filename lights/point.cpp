@@ -23,6 +23,8 @@ class PointLight final : public Light {
     s.pdf = 1;
     return s;
   }
+  double power(double /*sceneRadius*/) const override { return 4 * kPi * luminance(intensity_); }
+  LightBounds bounds() const override { return boundsOfPoint(position_, luminance(intensity_)); }
 
  private:
   Spectrum intensity_;

@@ -24,6 +24,8 @@ class Projection final : public Light {
     s.pdf = 1;
     return s;
   }
+  double power(double /*sceneRadius*/) const override { return luminance(intensity_ * flux_); }
+  LightBounds bounds() const override { return boundsOfPoint(position_, power(0) / angle_, cone_); }
 
  private:
   Projection(Params& p, const Setup& setup, const std::filesystem::path& file)
@@ -38,13 +40,24 @@ class Projection final : public Light {
     const auto w = static_cast<float>(picture_.width()), h = static_cast<float>(picture_.height());
     half_ = half * Vec2(w, h) / std::min(w, h);
     intensity_ *= readLightScale(p);
-    intensity_ *= readTotal(p, "power", flux(), "flux of the whole picture, for I = 1", "lm");
+    throwPicture();
+    intensity_ *=
+        readTotal(p, "power", luminance(flux_), "flux of the whole picture, for I = 1", "lm");
+
+    // The corners are what is farthest from the axis.
+    const auto inRender = [&](float x, float y) {
+      return Vec3(glm::normalize(setup.toRender.vector(DVec3(x * half_.x, y * half_.y, 1))));
+    };
+    cone_ = {inRender(0, 0), 1};
+    for (const float x : {-1.F, 1.F})
+      for (const float y : {-1.F, 1.F})
+        cone_.cosine = std::min(cone_.cosine, glm::dot(cone_.axis, inRender(x, y)));
   }
 
-  // Of the picture, for I = 1. At the point (x, y) of the plane z = 1 a small area a spans the
-  // solid angle a cos^3 = a / (1 + x^2 + y^2)^(3/2).
-  float flux() const {
-    double sum = 0;
+  // The picture's flux and solid angle. At the point (x, y) of the plane z = 1 a small area a spans
+  // the solid angle a cos^3 = a / (1 + x^2 + y^2)^(3/2).
+  void throwPicture() {
+    DVec3 sum(0);
     const int w = picture_.width(), h = picture_.height();
     // A picture of few pixels is cut finer than they are.
     const int cut = 1 + 256 / std::max(w, h);
@@ -52,17 +65,21 @@ class Projection final : public Light {
     for (int y = 0; y < h * cut; ++y)
       for (int x = 0; x < w * cut; ++x) {
         const Vec2 at = (Vec2(x, y) + 0.5F) * side - half_;
-        sum += luminance(picture_.pixel(x / cut, y / cut)) * side.x * side.y /
-               std::pow(1 + double{lengthSquared(at)}, 1.5);
+        const double angle = double{side.x} * side.y / std::pow(1 + double{lengthSquared(at)}, 1.5);
+        sum += DVec3(picture_.pixel(x / cut, y / cut)) * angle;
+        angle_ += angle;
       }
-    return static_cast<float>(sum);
+    flux_ = Spectrum(sum);
   }
 
   Spectrum intensity_;
   Picture picture_;
   glm::mat3 toLight_;
   Point3 position_{};
-  Vec2 half_{1};  // of the sides of the picture in the plane z = 1 of light space
+  Spectrum flux_{0};  // for I = 1
+  double angle_ = 0;
+  DirectionCone cone_;  // holds the directions of render space that it shines into
+  Vec2 half_{1};        // of the sides of the picture in the plane z = 1 of light space
 };
 
 }  // namespace

@@ -17,14 +17,15 @@ class Spot final : public Light {
     cosEnd_ = std::cos(radians(cone));
     cosStart_ = std::cos(radians(cone - delta));
     // The fourth power has the mean 1/5 over the soft edge.
-    const float angle = 2 * kPi * (1 - cosStart_ + (cosStart_ - cosEnd_) / 5);
-    intensity_ *= readTotal(p, "power", angle, "flux of the whole cone, for I = 1", "lm");
+    angle_ = 2 * kPi * (1 - cosStart_ + (cosStart_ - cosEnd_) / 5);
+    intensity_ *= readTotal(p, "power", angle_, "flux of the whole cone, for I = 1", "lm");
 
     const Point3 from = p.point("from", Point3(0), "where it is");
     const Vec3 axis = p.point("to", {0, 0, 1}, "a point that it is aimed at") - from;
     if (!(lengthSquared(axis) > 0)) p.fail("to", "must not be the same point as \"from\"");
     axis_ = glm::normalize(axis);
     position_ = setup.toRender.point(from);
+    cone_ = coneInRender(setup.toRender);
   }
 
   LightSample sample(const Point3& p, Point2 /*u*/) const override {
@@ -39,8 +40,28 @@ class Spot final : public Light {
     s.pdf = 1;
     return s;
   }
+  double power(double /*sceneRadius*/) const override { return angle_ * luminance(intensity_); }
+  LightBounds bounds() const override {
+    return boundsOfPoint(position_, luminance(intensity_), cone_);
+  }
 
  private:
+  // Holds the directions of render space that it shines into: as wide as the rim is anywhere.
+  DirectionCone coneInRender(const Transform& toRender) const {
+    if (cosEnd_ <= 0) return {};
+    DirectionCone cone{glm::normalize(toRender.vector(axis_)), 1};
+    const Frame frame = Frame::fromZ(axis_);
+    const float sine = safeSqrt(1 - sqr(cosEnd_));
+    constexpr int n = 32;
+    for (int i = 0; i < n; ++i) {
+      const float phi = 2 * kPi * static_cast<float>(i) / n;
+      const Vec3 rim = frame.fromLocal({sine * std::cos(phi), sine * std::sin(phi), cosEnd_});
+      cone.cosine = std::min(
+          cone.cosine, glm::dot(cone.axis, Vec3(glm::normalize(toRender.vector(DVec3(rim))))));
+    }
+    return cone;
+  }
+
   // From 1 inside the soft edge to 0 at the end of the cone, by the fourth power of how far the
   // cosine has come. The angle is that of light space.
   float falloff(const Vec3& w) const {
@@ -55,6 +76,8 @@ class Spot final : public Light {
   Vec3 axis_{};  // unit, in light space
   Point3 position_{};
   float cosStart_ = 1, cosEnd_ = 1;
+  float angle_ = 0;  // solid angle, weighted by the falloff
+  DirectionCone cone_;
 };
 
 }  // namespace pbrt

@@ -56,6 +56,7 @@ class Disk final : public Shape, public AreaSampler {
   bool mayHit(const DPoint3& from, const DVec3& w) const override {
     return intersect({from, w}, 0).has_value();
   }
+  DirectionCone normals() const override { return {{0, 0, 1}, 1}; }
 
  private:
   double z_, radius_, inner_;

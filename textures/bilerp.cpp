@@ -21,7 +21,8 @@ class Bilerp final : public Texture<T> {
   }
 
   T evaluate(const SurfaceInteraction& at) const override {
-    const Point2 st = mapping_(at).st;
+    // It goes on beyond the square, as far as the product of both coordinates is finite.
+    const Point2 st = glm::clamp(mapping_(at).st, -1e15F, 1e15F);
     return (1 - st.x) * ((1 - st.y) * v00_ + st.y * v01_) +
            st.x * ((1 - st.y) * v10_ + st.y * v11_);
   }

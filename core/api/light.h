@@ -16,11 +16,24 @@ struct LightSample {
   float pdf = 0;       // per solid angle; 1 for a delta light; 0: no light arrives
 };
 
+// What choosing among many lights goes by, in render space. Of a finite light everything leaves
+// within `emission` of a direction of `normals`, or of the opposite one if it shines both ways.
+struct LightBounds {
+  Bounds3 box;  // holds the light; empty: infinitely far
+  // Luminance of the radiant intensity at its largest, or its mean; of an infinite light the
+  // irradiance of a surface that faces it, or its mean over all surfaces.
+  double intensity = 0;
+  DirectionCone normals;
+  float cosEmission = 1;
+  bool twoSided = false;
+};
+
 class Light {
  public:
   struct Setup {
     Transform toRender;                    // light space to render space
     const AreaSampler* surface = nullptr;  // of an area light, in render space; else null
+    Bounds3 box;                           // holds that surface
   };
 
   Light() = default;
@@ -28,8 +41,10 @@ class Light {
   Light& operator=(const Light&) = delete;
   virtual ~Light();
 
-  // Called once, before rendering.
-  virtual void prepare(const Bounds3& /*scene*/) {}
+  // Luminance of the flux that it sends out; of an infinite light, into a ball of this radius. A
+  // light space that is stretched unevenly counts as one stretched evenly, by the same volume.
+  virtual double power(double sceneRadius) const = 0;
+  virtual LightBounds bounds() const = 0;
 
   // Chooses a direction towards the light from p.
   virtual LightSample sample(const Point3& p, Point2 u) const = 0;
@@ -37,6 +52,8 @@ class Light {
   virtual bool isDelta() const { return true; }
   // How many samples direct lighting should take of it.
   int samples() const { return samples_; }
+  // Its place in World::lights(), which the scene sets.
+  std::uint32_t number = 0;
 
   // Area lights: radiance that leaves the surface point in direction w.
   virtual Spectrum emitted(const Point3& /*p*/, const Normal3& /*n*/, const Vec3& /*w*/) const {

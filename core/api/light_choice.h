@@ -1,82 +1,92 @@
 #pragma once
 // Which light is sampled, where only one is.
 
-#include <array>
-#include <span>
-
 #include "core/api/world.h"
 
 namespace pbrt {
 
-// From which light a point takes its one sample. Probing, a light's chance goes by what it would
-// send to the point if nothing were in between, as a few fixed samples of it say. They may be wrong
-// (all face away, but some of the light does not), so a share of the choices is uniform: no light
-// is left out, and none is n / kUniform times too rare (Hesterberg 1995, "Weighted Average
-// Importance Sampling and Defensive Mixture Distributions").
+// By what a light's chance goes: nothing, its power, or what it would send to the point if nothing
+// were in between, as far as its place and its bounds say.
+enum class LightStrategy : std::uint8_t { uniform, power, spatial };
+
+// From which light a point takes its one sample. The estimates know nothing of shadows, so a share
+// of the choices is uniform: no light is left out, and none is n / kUniform times too rare
+// (Hesterberg 1995, "Weighted Average Importance Sampling and Defensive Mixture Distributions").
 class LightChoice {
  public:
   struct Chosen {
     const Light& light;
-    float chance;
-    Point2 u;  // uniform still, for the light to sample with
+    float chance;  // above 0
+    Point2 u;      // uniform still, for the light to sample with
   };
 
-  LightChoice(const World& world, bool probes, Scratch& scratch) : lights_(world.lights()) {
-    const std::size_t n = probes && lights_.size() > 1 ? lights_.size() : 0;
-    if (n > 0)
-      probes_ = {static_cast<float*>(scratch.allocate(n * sizeof(float), alignof(float))), n};
-  }
+  LightChoice(const World& world, LightStrategy strategy)
+      : world_(world),  // NOLINT: it lives as long as a path
+        n_(static_cast<float>(world.lights().size())),
+        strategy_(differ(world, strategy) ? strategy : LightStrategy::uniform) {}
 
-  bool empty() const { return lights_.empty(); }
+  bool empty() const { return world_.lights().empty(); }
   const Point3& point() const { return p_; }
 
-  // From now on it is about p.
-  void moveTo(const Point3& p) {
+  // From now on it is about p, where light arrives from the side of the unit normal n alone, or
+  // from everywhere if n is zero.
+  void moveTo(const Point3& p, const Normal3& n = Normal3(0)) {
     p_ = p;
-    float sum = 0;
-    for (std::size_t i = 0; i < probes_.size(); ++i) sum += probes_[i] = probe(*lights_[i]);
-    const auto n = static_cast<float>(lights_.size());
-    probed_ = sum > 0 && sum < kInfinity;
-    total_ = probed_ ? sum / (1 - kUniform) : n;
-    least_ = probed_ ? total_ * kUniform / n : 1;
+    side_ = n;
+  }
+  // The same for a surface: what only reflects sees no light from behind.
+  void moveTo(const SurfaceInteraction& at, const Bsdf& bsdf) {
+    moveTo(at.p, bsdf.has(kTransmission) ? Normal3(0) : faceForward(at.n, at.wo));
   }
 
   // The number u.x chooses the light; what is left of it is uniform again.
   Chosen choose(Point2 u) const {
-    const auto weight = [&](std::size_t i) { return (probed_ ? probes_[i] : 0) + least_; };
-    std::size_t i = 0;
-    float rest = u.x * total_;
-    for (; i + 1 < lights_.size() && rest >= weight(i); ++i) rest -= weight(i);
-    return {*lights_[i], weight(i) / total_, {std::min(rest / weight(i), kOneMinusEpsilon), u.y}};
+    if (strategy_ == LightStrategy::uniform) return uniformly(u);
+    if (u.x < kUniform) return uniformly({u.x / kUniform, u.y});
+    const double x = std::min((double{u.x} - kUniform) / (1 - kUniform), 1 - 0x1p-53);
+    if (strategy_ == LightStrategy::spatial) {
+      const LightTree::Chosen s = world_.lightTree().choose(p_, side_, x);
+      return {light(s.light),
+              mixed(s.chance),
+              {std::min(static_cast<float>(s.rest), kOneMinusEpsilon), u.y}};
+    }
+    const auto cell = world_.lightPowers().sample({static_cast<float>(x), 0});
+    return {light(cell.x), mixed(cell.chance), {cell.within.x, u.y}};
   }
 
   // That of choose() for this light.
   float chance(const Light& light) const {
-    return ((probed_ ? probe(light) : 0) + least_) / total_;
+    if (strategy_ == LightStrategy::uniform) return 1 / n_;
+    if (strategy_ == LightStrategy::spatial)
+      return mixed(world_.lightTree().chance(p_, side_, light.number));
+    return mixed(world_.lightPowers().chance(static_cast<int>(light.number), 0));
   }
 
  private:
-  static constexpr float kUniform = 0.2F;
-  // Of lights that have an extent. One does not do: of a closed surface it faces away from half of
-  // all points, though the other half of the surface shines on them.
-  static constexpr std::array<Point2, 4> kProbes = {
-      {{0.125F, 0.375F}, {0.375F, 0.875F}, {0.625F, 0.125F}, {0.875F, 0.625F}}};
+  static constexpr float kUniform = 0.125F;
 
-  float probe(const Light& light) const {
-    float sum = 0;
-    for (const Point2& u : std::span(kProbes).first(light.isDelta() ? 1 : kProbes.size())) {
-      const LightSample s = light.sample(p_, u);
-      if (s.pdf > 0) sum += luminance(s.L) / s.pdf;
-    }
-    return light.isDelta() ? sum : sum / kProbes.size();
+  static bool differ(const World& world, LightStrategy strategy) {
+    return strategy == LightStrategy::spatial ? !world.lightTree().empty()
+                                              : world.lightPowers().total() > 0;
+  }
+  template <class Number>
+  const Light& light(Number number) const {
+    return *world_.lights()[static_cast<std::size_t>(number)];
+  }
+  float mixed(double chance) const {
+    return static_cast<float>(kUniform / n_ + (1 - kUniform) * chance);
+  }
+  Chosen uniformly(Point2 u) const {
+    const float x = u.x * n_, whole = std::min(std::floor(x), n_ - 1);
+    const Light& one = light(whole);
+    return {one, chance(one), {std::min(x - whole, kOneMinusEpsilon), u.y}};
   }
 
-  std::span<const Light* const> lights_;
-  std::span<float> probes_;  // of the lights at p_; none: all have the same chance
+  const World& world_;
+  float n_;
+  LightStrategy strategy_;
   Point3 p_{};
-  bool probed_ = false;
-  float total_ = 0;  // of all weights, which are the probes, each raised by:
-  float least_ = 0;
+  Normal3 side_{};
 };
 
 }  // namespace pbrt

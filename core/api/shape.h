@@ -25,6 +25,12 @@ struct AreaSample {
   float pdf = 0;     // per solid angle at the reference point; 0: no sample
 };
 
+// Directions whose angle to the unit `axis` has at least this cosine; -1: all there are.
+struct DirectionCone {
+  Vec3 axis{0, 0, 1};
+  float cosine = -1;
+};
+
 // Samples a surface for those who gather its light. All in the space of the shape, or in render
 // space where the scene hands it to a light.
 class AreaSampler {
@@ -36,6 +42,8 @@ class AreaSampler {
   virtual float pdf(const DPoint3& from, const DPoint3& p, const Normal3& n) const = 0;
   // False only if no ray from `from` along `w` meets the surface; may be true in vain.
   virtual bool mayHit(const DPoint3& from, const DVec3& w) const = 0;
+  // Holds the normals of all its points.
+  virtual DirectionCone normals() const { return {}; }
 };
 
 // Triangles with optional per-vertex attributes. Empty arrays are absent attributes.

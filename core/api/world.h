@@ -5,7 +5,8 @@
 
 #include "core/api/bsdf.h"
 #include "core/api/camera.h"
-#include "core/api/light.h"
+#include "core/api/light_tree.h"
+#include "core/base/distribution.h"
 
 namespace pbrt {
 
@@ -43,6 +44,9 @@ class World {
 
   std::span<const Light* const> lights() const { return lights_; }
   std::span<const Light* const> infiniteLights() const { return infiniteLights_; }
+  const LightTree& lightTree() const { return lightTree_; }
+  // The lights by their power: column i is lights()[i].
+  const Distribution2D& lightPowers() const { return lightPowers_; }
   // Radiance from the unit direction w for a ray that hits nothing.
   Spectrum escaped(const Vec3& w) const {
     Spectrum L(0);
@@ -59,6 +63,8 @@ class World {
  protected:
   std::vector<const Light*> lights_;
   std::vector<const Light*> infiniteLights_;
+  LightTree lightTree_;
+  Distribution2D lightPowers_;
   const Camera* camera_ = nullptr;
   Bounds3 bounds_;
   bool filters_ = false;

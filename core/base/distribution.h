@@ -16,6 +16,7 @@ class Distribution2D {
     double chance = 0;  // 0: there is nothing to choose from
   };
 
+  Distribution2D() = default;  // nothing to choose from
   // Chances in proportion to the weights, which are finite and not negative, row by row.
   Distribution2D(int width, std::vector<double> weights)
       : width_(static_cast<std::size_t>(width)), sums_(std::move(weights)) {
@@ -26,7 +27,7 @@ class Distribution2D {
     }
   }
 
-  double total() const { return rows_.back(); }
+  double total() const { return rows_.empty() ? 0 : rows_.back(); }
   double chance(int x, int y) const {
     const double* row = &sums_[static_cast<std::size_t>(y) * width_];
     return total() > 0 ? (row[x] - (x > 0 ? row[x - 1] : 0)) / total() : 0;
@@ -52,7 +53,7 @@ class Distribution2D {
     return static_cast<int>(above - sums);
   }
 
-  std::size_t width_;
+  std::size_t width_ = 0;
   std::vector<double> sums_;  // of the weights within each row, up to and including a cell
   std::vector<double> rows_;  // of the rows
 };

@@ -1,6 +1,7 @@
 #pragma once
 // The parameters that lights share.
 
+#include "core/api/light.h"
 #include "core/plugin/params.h"
 
 namespace pbrt {
@@ -17,6 +18,12 @@ inline float readTotal(Params& p, const std::string& name, float ofOne, std::str
                        std::string_view unit) {
   const float total = p.optionalNumber(name, meaning, unit).value_or(0);
   return total > 0 ? total / ofOne : 1;
+}
+
+// Of a point at `p` that shines into the directions of the cone with this intensity.
+inline LightBounds boundsOfPoint(const Point3& p, double intensity,
+                                 const DirectionCone& cone = {}) {
+  return {{p, p}, intensity, cone};
 }
 
 // How many samples direct lighting takes of a light that has an extent.

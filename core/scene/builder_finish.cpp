@@ -225,13 +225,21 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   scene.root_.accel.build(transforms_.times());
   scene.bounds_ = scene.root_.accel.bounds();
   const auto addLight = [&](Light& light) {
-    light.prepare(scene.bounds_);
+    light.number = static_cast<std::uint32_t>(scene.lights_.size());
     scene.lights_.push_back(&light);
     if (light.isInfinite()) scene.infiniteLights_.push_back(&light);
   };
   for (const auto& light : scene.ownLights_) addLight(*light);
   for (const auto& g : scene.root_.geometries)
     if (g->light) addLight(*g->light);
+
+  if (scene.lights_.size() > 1) {
+    const double radius = scene.bounds_.empty() ? 1 : 0.5 * glm::length(scene.bounds_.diagonal());
+    std::vector<double> powers;
+    for (const Light* light : scene.lights_) powers.push_back(light->power(radius));
+    scene.lightPowers_ = {static_cast<int>(powers.size()), std::move(powers)};
+    scene.lightTree_ = LightTree(scene.lights_);
+  }
 
   if (scene.bounds_.empty()) note({}, "the scene has no shapes: the picture is empty");
   if (scene.lights_.empty()) note({}, "the scene has no lights: the picture is black");

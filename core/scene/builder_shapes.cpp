@@ -24,7 +24,7 @@ std::optional<Cutout> cutout(Params& shape, Dialect dialect) {
 void SceneBuilder::addLight(const Directive& d) {
   const std::string& name = d.words.at(0);
   scene_->ownLights_.push_back(
-      factory_.make<Light>(name, d.params, d.where, {startOf(d), nullptr}, nullptr,
+      factory_.make<Light>(name, d.params, d.where, {startOf(d), nullptr, {}}, nullptr,
                            defaultsFor(AttributeTarget::light, name).get()));
 }
 
@@ -128,12 +128,18 @@ void SceneBuilder::addAreaLight(const Attributes& attributes, const Directive& s
                                 shape.words.at(0)));
     return;
   }
+  Bounds3 box;
+  if (g.mesh)
+    for (const Point3& p : g.mesh->positions) box.add(p);
+  else
+    for (std::uint32_t i = 0; i < g.shape->primitives(); ++i)
+      box.add(g.toGroup.bounds(g.shape->bounds(i)));
   if (g.cutout)
     factory_.report(Severity::warning, shape.where,
                     "the holes of this shape give light, too, to those who sample it");
   const Directive& light = *attributes.areaLight;
   auto made = factory_.make<Light>(light.words.at(0), light.params, light.where,
-                                   {toRender, g.sampler.get()}, nullptr,
+                                   {toRender, g.sampler.get(), box}, nullptr,
                                    attributes.areaLightDefaults.get());
   if (made->isDelta() || made->isInfinite())
     throw Error(light.where, fmt::format("a \"{}\" light is not the surface of a shape: it needs "

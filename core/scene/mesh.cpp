@@ -51,6 +51,7 @@ class MeshSampler final : public AreaSampler {
       cumulative_.push_back(sum);
     }
     for (const Point3& p : mesh.positions) bounds_.add(p);
+    normals_ = coneOfNormals();
   }
 
   double area() const override { return cumulative_.empty() ? 0 : cumulative_.back(); }
@@ -69,10 +70,7 @@ class MeshSampler final : public AreaSampler {
     const float wc = 1 - w.x - w.y;
     s.p = DPoint3(a) * double(w.x) + DPoint3(b) * double(w.y) + DPoint3(c) * double(wc);
     s.error = planeError(a, b, c);
-    // The same side as meshSurface() says, or the light would shine to the other one.
-    s.n = windingNormal(a, b, c) * (flip_ ? -1.F : 1.F);
-    const Normal3 ns = vertexNormal(mesh_, t, w.x, w.y, wc);
-    s.n = faceForward(s.n, reverse_ ? -ns : ns);
+    s.n = normal(t, w.x, w.y, wc);
     s.pdf = pdf(from, s.p, s.n);
     return s;
   }
@@ -93,12 +91,40 @@ class MeshSampler final : public AreaSampler {
     }
     return !(near > far);
   }
+  DirectionCone normals() const override { return normals_; }
 
  private:
+  // At a point of a triangle, on the side that meshSurface() says, or the light would shine to the
+  // other one.
+  Normal3 normal(const Corners& t, float wa, float wb, float wc) const {
+    const Normal3 n =
+        windingNormal(mesh_.positions[t.a], mesh_.positions[t.b], mesh_.positions[t.c]);
+    const Normal3 ns = vertexNormal(mesh_, t, wa, wb, wc);
+    return faceForward(flip_ ? -n : n, reverse_ ? -ns : ns);
+  }
+
+  // About the mean normal.
+  DirectionCone coneOfNormals() const {
+    const auto forEach = [&](const auto& use) {
+      for (std::size_t i = 0; i < mesh_.triangles(); ++i)
+        use(normal(corners(mesh_, i), 1 / 3.F, 1 / 3.F, 1 / 3.F),
+            cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0));
+    };
+    DVec3 sum(0);
+    forEach([&](const Normal3& n, double area) { sum += area * DVec3(n); });
+    if (!(lengthSquared(sum) > 1e-6 * sqr(area()))) return {};
+    DirectionCone cone{glm::normalize(sum), 1};
+    forEach([&](const Normal3& n, double) {
+      cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, n));
+    });
+    return cone;
+  }
+
   const TriangleMesh& mesh_;
   bool flip_, reverse_;
   std::vector<double> cumulative_;  // area of all triangles up to and including the i-th
   Bounds3 bounds_;
+  DirectionCone normals_;
 };
 
 }  // namespace

@@ -81,6 +81,13 @@ class PlacedSampler final : public AreaSampler {
     return sampler_.mayHit(toObject_.point(from), toObject_.vector(w));
   }
 
+  DirectionCone normals() const override {
+    const DirectionCone cone = sampler_.normals();
+    // A plane stays one; a wider cone keeps its angle if the map is similar.
+    if (cone.cosine < 1 && !similar_) return {};
+    return {glm::normalize(normalMatrix_ * cone.axis), cone.cosine};
+  }
+
  private:
   float densityFactor(const DVec3& w) const {
     if (similar_) return 1;

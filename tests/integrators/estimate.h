@@ -57,6 +57,7 @@ inline std::string path(int maxDepth, const std::string& more = "") {
   return fmt::format("\"path\" \"integer maxdepth\" {} {}", maxDepth, more);
 }
 
+inline const std::string kUniform = "\"string lightsamplestrategy\" \"uniform\"";
 inline const std::string kSpatial = "\"string lightsamplestrategy\" \"spatial\"";
 
 }  // namespace pbrt::test

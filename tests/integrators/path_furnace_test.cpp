@@ -33,7 +33,7 @@ class Furnace : public testing::TestWithParam<std::string> {
  protected:
   std::string world() const { return GetParam().starts_with("Ball") ? ball() : box(); }
   std::string integrator(int maxDepth, const std::string& more = "") const {
-    return path(maxDepth, more + (GetParam().ends_with("Spatial") ? kSpatial : ""));
+    return path(maxDepth, more + (GetParam().ends_with("Spatial") ? kSpatial : kUniform));
   }
 };
 

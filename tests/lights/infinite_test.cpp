@@ -170,6 +170,44 @@ TEST_F(Infinite, BlackPicturesGiveNoSamples) {
   EXPECT_EQ(light->pdfEscaped({0, 0, 1}), 0);
 }
 
+// One texel of 4096 x 2048 burns. Between texels the light is interpolated: the four about it and
+// those beside them share it, and its integral over the picture is that of the texel.
+TEST_F(Infinite, OneBurningTexel) {
+  constexpr int w = 4096, h = 2048, column = 3000, row = 700;
+  const auto lightOf = [&](float sky, float sun) {
+    std::vector<float> values(w * h, sky);  // rows from the bottom
+    values[(h - 1 - row) * w + column] = sun;
+    std::string pfm = "Pf 4096 2048 -1\n";
+    pfm.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+    folder.write("sun.pfm", pfm);
+    return make<Light>("infinite", {text("mapname", (folder.path() / "sun.pfm").string())});
+  };
+  const double pi = std::numbers::pi, theta = pi * (row + 0.5) / h;
+  const double phi = 2 * pi * (column + 0.5) / w, angle = pi / h * 2 * pi / w * std::sin(theta);
+  const Vec3 sun(std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta));
+  for (const float sky : {0.F, 1e-3F}) {
+    const auto light = lightOf(sky, 1e6F);
+    double sum = 0, squares = 0;
+    Rng rng(8);
+    constexpr int n = 20000;
+    for (int i = 0; i < n; ++i) {
+      const LightSample s = light->sample(Point3(0), {rng.uniform(), rng.uniform()});
+      ASSERT_GT(s.pdf, 0);
+      if (sky == 0) {
+        ASSERT_LT(glm::length(s.wi - sun), 2.2 * pi / h);
+      }
+      const double E = double{s.L.y} * std::max(0.F, s.wi.z) / s.pdf;
+      sum += E;
+      squares += E * E;
+    }
+    const double expected = 1e6 * angle * std::cos(theta) + sky * pi, mean = sum / n;
+    const double error = std::sqrt((squares / n - mean * mean) / n);
+    EXPECT_NEAR(mean, expected, 4.5 * error + 1e-4 * expected);
+    EXPECT_LT(error, 1.5 / std::sqrt(n) * expected);
+    EXPECT_NEAR(light->power(1) / pi, 1e6 * angle + sky * 4 * pi, 1e-5 * expected);
+  }
+}
+
 TEST_F(Infinite, PortalsChangeNothing) {
   const auto bare = make<Light>("infinite", {rgb("L", 1, 2, 3)});
   const auto light = make<Light>(

@@ -27,6 +27,7 @@ class DiskSampler final : public AreaSampler {
     const double t = -from.z / w.z;
     return t > 0 && glm::length(from + t * w) <= radius_;
   }
+  DirectionCone normals() const override { return {{0, 0, 1}, 1}; }
 
  private:
   double radius_;
