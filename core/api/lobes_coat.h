@@ -72,6 +72,9 @@ class CoatedDiffuse final : public Bxdf {
     if (!sameHemisphere(wo, wi)) return Spectrum(0);
     return base_ * (coat_.transmittance(wo.z) * coat_.transmittance(wi.z));
   }
+  float weight(const Vec3& wo) const override {
+    return kPi * luminance(base_) * coat_.transmittance(wo.z);
+  }
 
  private:
   Spectrum base_;
@@ -103,6 +106,8 @@ class CoatedConductor final : public Bxdf {
     if (s) s->f *= filtered(wo, s->wi);
     return s;
   }
+  // Conductors are bright.
+  float weight(const Vec3& wo) const override { return coat_.transmittance(wo.z); }
 
  private:
   // The share that coat and conductor leave of the light that the facets turn from wi to wo.
