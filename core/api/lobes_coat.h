@@ -106,8 +106,9 @@ class CoatedConductor final : public Bxdf {
     if (s) s->f *= filtered(wo, s->wi);
     return s;
   }
-  // Conductors are bright.
-  float weight(const Vec3& wo) const override { return coat_.transmittance(wo.z); }
+  float weight(const Vec3& wo) const override {
+    return sqr(coat_.transmittance(wo.z)) * luminance(conductor_(1));
+  }
 
  private:
   // The share that coat and conductor leave of the light that the facets turn from wi to wo.

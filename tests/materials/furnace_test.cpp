@@ -79,8 +79,8 @@ INSTANTIATE_TEST_SUITE_P(
               0.99}),
     [](const auto& test) { return fmt::format("{}{}", test.param.name, test.index); });
 
-// The share of light from wo that f() says is scattered: by midpoints, which crowd at the mirrored
-// and refracted directions' cosines as little as anywhere. The specular lobes add theirs.
+// The share of light from wo that f() says is scattered: by midpoints, even over the sphere. The
+// specular lobes add theirs.
 double integral(const Bsdf& bsdf, const Vec3& wo) {
   constexpr int n = 1200, m = 600;
   double sum = 0;
