@@ -12,22 +12,25 @@ class Glass final : public Material {
         kt_(p.spectrumTexture("Kt", Spectrum(1), "scales the transmitted light")),
         roughness_(p, 0),
         map_(p),
+        facets_(p, false),
         index_(p),
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
     const Spectrum kr = glm::max(kr_(at), 0.F), kt = glm::max(kt_(at), 0.F);
     const float index = index_(at);
-    const FacetWidths widths = map_(roughness_(at));
-    if (widths.smooth || std::abs(index - 1) < Refraction::kLeastBend) {
+    const Vec2 roughness = roughness_(at);
+    if (map_(roughness).smooth || std::abs(index - 1) < kLeastBend) {
       using Mirror = SpecularReflection<DielectricFresnel>;
       if (!isBlack(kr)) bsdf.add(place<Mirror>(scratch, kr, DielectricFresnel{index}));
       if (!isBlack(kt)) bsdf.add(place<SpecularTransmission>(scratch, kt, index));
     } else {
-      const TrowbridgeReitz facets = widths.facets();
-      using Gloss = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
-      if (!isBlack(kr)) bsdf.add(place<Gloss>(scratch, kr, facets, DielectricFresnel{index}));
-      if (!isBlack(kt)) bsdf.add(place<Refraction>(scratch, kt, facets, index));
+      facets_.with(roughness, map_, [&]<class Distribution>(const Distribution& facets) {
+        using Gloss = MicrofacetReflection<Distribution, DielectricFresnel>;
+        using Refraction = MicrofacetTransmission<Distribution>;
+        if (!isBlack(kr)) bsdf.add(place<Gloss>(scratch, kr, facets, DielectricFresnel{index}));
+        if (!isBlack(kt)) bsdf.add(place<Refraction>(scratch, kt, facets, index));
+      });
     }
   }
   bool filters() const override {
@@ -37,11 +40,12 @@ class Glass final : public Material {
   const Textured<float>* bumpMap() const override { return bump_ ? &*bump_ : nullptr; }
 
  private:
-  using Refraction = MicrofacetTransmission<TrowbridgeReitz>;
+  static constexpr float kLeastBend = MicrofacetTransmission<TrowbridgeReitz>::kLeastBend;
 
   Textured<Spectrum> kr_, kt_;
   Roughness roughness_;
   RoughnessMap map_;
+  Facets facets_;
   RefractiveIndex index_;
   std::optional<Textured<float>> bump_;
 };

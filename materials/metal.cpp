@@ -11,17 +11,21 @@ class Metal final : public Material {
       : conductor_(p),
         roughness_(p, 0.01F),
         map_(p),
+        facets_(p),
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
     const ConductorFresnel fresnel = conductor_(at);
-    const FacetWidths widths = map_(roughness_(at));
+    const Vec2 roughness = roughness_(at);
     using Mirror = SpecularReflection<ConductorFresnel>;
-    using Gloss = MicrofacetReflection<TrowbridgeReitz, ConductorFresnel>;
-    if (widths.smooth)
+    if (!facets_.blinn() && map_(roughness).smooth) {
       bsdf.add(place<Mirror>(scratch, Spectrum(1), fresnel));
-    else
-      bsdf.add(place<Gloss>(scratch, Spectrum(1), widths.facets(), fresnel));
+      return;
+    }
+    facets_.with(roughness, map_, [&]<class Distribution>(const Distribution& facets) {
+      using Gloss = MicrofacetReflection<Distribution, ConductorFresnel>;
+      bsdf.add(place<Gloss>(scratch, Spectrum(1), facets, fresnel));
+    });
   }
   bool filters() const override {
     return conductor_.filters() || roughness_.filters() || (bump_ && bump_->filters());
@@ -32,6 +36,7 @@ class Metal final : public Material {
   Conductor conductor_;
   Roughness roughness_;
   RoughnessMap map_;
+  Facets facets_;
   std::optional<Textured<float>> bump_;
 };
 

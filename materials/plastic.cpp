@@ -11,27 +11,20 @@ class Plastic final : public Material {
         ks_(p.spectrumTexture("Ks", Spectrum(0.25F), "scales the glossy reflection")),
         roughness_(p.floatTexture("roughness", 0.1F, "0 is the sharpest highlight")),
         map_(p),
-        bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {
-    blinn_ = readBlinn(p);
-  }
+        facets_(p),
+        bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
     const Spectrum kd = glm::max(kd_(at), 0.F), ks = glm::max(ks_(at), 0.F);
     if (!isBlack(kd)) bsdf.add(place<Lambertian>(scratch, kd));
     if (isBlack(ks)) return;
-    const float roughness = roughness_(at);
-    if (blinn_) {
-      // pbrt-v1 and v2 take the denser medium for the incident side, so that the facets reflect
-      // totally beyond the critical angle; pictures of plastic agree with theirs only so.
-      constexpr TwoSidedFresnel fresnel{1 / 1.5F};
-      using Lobe = MicrofacetReflection<Blinn, TwoSidedFresnel>;
-      bsdf.add(place<Lobe>(scratch, ks, Blinn(roughness), fresnel));
-    } else {
-      constexpr TwoSidedFresnel fresnel{1.5F};
-      using Lobe = MicrofacetReflection<TrowbridgeReitz, TwoSidedFresnel>;
-      const float alpha = map_.alpha(roughness);
-      bsdf.add(place<Lobe>(scratch, ks, TrowbridgeReitz(alpha, alpha), fresnel));
-    }
+    // pbrt-v1 and v2 take the denser medium for the incident side, so that the facets reflect
+    // totally beyond the critical angle; pictures of plastic agree with theirs only so.
+    const TwoSidedFresnel fresnel{facets_.blinn() ? 1 / 1.5F : 1.5F};
+    facets_.with(Vec2(roughness_(at)), map_, [&]<class Distribution>(const Distribution& facets) {
+      using Gloss = MicrofacetReflection<Distribution, TwoSidedFresnel>;
+      bsdf.add(place<Gloss>(scratch, ks, facets, fresnel));
+    });
   }
   bool filters() const override {
     return kd_.filters() || ks_.filters() || roughness_.filters() || (bump_ && bump_->filters());
@@ -42,8 +35,8 @@ class Plastic final : public Material {
   Textured<Spectrum> kd_, ks_;
   Textured<float> roughness_;
   RoughnessMap map_;
+  Facets facets_;
   std::optional<Textured<float>> bump_;
-  bool blinn_;
 };
 
 }  // namespace pbrt

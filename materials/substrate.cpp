@@ -11,18 +11,15 @@ class Substrate final : public Material {
         ks_(p.spectrumTexture("Ks", Spectrum(0.5F), "reflectance of the gloss, seen frontally")),
         roughness_(Roughness::perAxis(p, 0.1F)),
         map_(p),
-        bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {
-    blinn_ = readBlinn(p);
-  }
+        facets_(p),
+        bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
     const Spectrum kd = glm::clamp(kd_(at), 0.F, 1.F), ks = glm::clamp(ks_(at), 0.F, 1.F);
     if (isBlack(kd) && isBlack(ks)) return;
-    const Vec2 r = roughness_(at);
-    if (blinn_)
-      bsdf.add(place<FresnelBlend<Blinn>>(scratch, kd, ks, Blinn(r.x, r.y)));
-    else
-      bsdf.add(place<FresnelBlend<TrowbridgeReitz>>(scratch, kd, ks, map_(r).facets()));
+    facets_.with(roughness_(at), map_, [&]<class Distribution>(const Distribution& facets) {
+      bsdf.add(place<FresnelBlend<Distribution>>(scratch, kd, ks, facets));
+    });
   }
   bool filters() const override {
     return kd_.filters() || ks_.filters() || roughness_.filters() || (bump_ && bump_->filters());
@@ -33,8 +30,8 @@ class Substrate final : public Material {
   Textured<Spectrum> kd_, ks_;
   Roughness roughness_;
   RoughnessMap map_;
+  Facets facets_;
   std::optional<Textured<float>> bump_;
-  bool blinn_;
 };
 
 }  // namespace pbrt

@@ -13,7 +13,7 @@ class Translucent final : public Material {
         transmit_(p.spectrumTexture("transmit", Spectrum(0.5F), "share that is let through")),
         roughness_(p.floatTexture("roughness", 0.1F, "0 is the sharpest highlight")),
         map_(p),
-        blinn_(readBlinn(p)),
+        facets_(p),
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
   void scatter(const SurfaceInteraction& at, Bsdf& bsdf, Scratch& scratch) const override {
@@ -24,20 +24,18 @@ class Translucent final : public Material {
     };
     add(Lambertian(kd * reflect), kd * reflect);
     add(Through(Lambertian(kd * transmit)), kd * transmit);
-    const float roughness = roughness_(at);
-    if (blinn_) {
-      // As with plastic, pbrt-v1 and v2 have the denser medium outside.
-      using Gloss = MicrofacetReflection<Blinn, TwoSidedFresnel>;
-      constexpr TwoSidedFresnel fresnel{1 / kIndex};
-      add(Gloss(ks * reflect, Blinn(roughness), fresnel), ks * reflect);
-      add(Through(Gloss(ks * transmit, Blinn(roughness), fresnel)), ks * transmit);
-    } else {
-      using Gloss = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
-      const float alpha = map_.alpha(roughness);
-      const TrowbridgeReitz facets(alpha, alpha);
-      add(Gloss(ks * reflect, facets, DielectricFresnel{kIndex}), ks * reflect);
-      add(MicrofacetTransmission(ks * transmit, facets, kIndex), ks * transmit);
-    }
+    facets_.with(Vec2(roughness_(at)), map_, [&]<class Distribution>(const Distribution& facets) {
+      if constexpr (std::is_same_v<Distribution, Blinn>) {
+        // As with plastic, pbrt-v1 and v2 have the denser medium outside.
+        constexpr TwoSidedFresnel fresnel{1 / kIndex};
+        add(MicrofacetReflection(ks * reflect, facets, fresnel), ks * reflect);
+        add(Through(MicrofacetReflection(ks * transmit, facets, fresnel)), ks * transmit);
+      } else {
+        constexpr DielectricFresnel fresnel{kIndex};
+        add(MicrofacetReflection(ks * reflect, facets, fresnel), ks * reflect);
+        add(MicrofacetTransmission(ks * transmit, facets, kIndex), ks * transmit);
+      }
+    });
   }
   bool filters() const override {
     return kd_.filters() || ks_.filters() || reflect_.filters() || transmit_.filters() ||
@@ -51,7 +49,7 @@ class Translucent final : public Material {
   Textured<Spectrum> kd_, ks_, reflect_, transmit_;
   Textured<float> roughness_;
   RoughnessMap map_;
-  bool blinn_;
+  Facets facets_;
   std::optional<Textured<float>> bump_;
 };
 

@@ -16,7 +16,7 @@ class Uber final : public Material {
                                    "scales all of these; the rest of the light goes straight on")),
         roughness_(p, 0.1F),
         map_(p),
-        blinn_(readBlinn(p)),
+        facets_(p),
         index_(p),
         bump_(p.optionalFloatTexture("bumpmap", "height by which the surface seems displaced")) {}
 
@@ -26,19 +26,19 @@ class Uber final : public Material {
     const Spectrum kr = opacity * glm::max(kr_(at), 0.F), kt = opacity * glm::max(kt_(at), 0.F);
     const float index = index_(at);
     // pbrt-v1 and v2 have the denser medium outside, as with plastic.
-    const DielectricFresnel fresnel{blinn_ ? 1 / index : index};
+    const DielectricFresnel fresnel{facets_.blinn() ? 1 / index : index};
     if (!isBlack(clear))
       bsdf.add(place<StraightTransmission<NoReflection>>(scratch, clear, NoReflection{}));
     if (!isBlack(kd)) bsdf.add(place<Lambertian>(scratch, kd));
     if (!isBlack(ks)) {
-      const Vec2 r = roughness_(at);
-      if (blinn_) {
-        using Gloss = MicrofacetReflection<Blinn, TwoSidedFresnel>;
-        bsdf.add(place<Gloss>(scratch, ks, Blinn(r.x, r.y), TwoSidedFresnel{fresnel.eta}));
-      } else {
-        using Gloss = MicrofacetReflection<TrowbridgeReitz, DielectricFresnel>;
-        bsdf.add(place<Gloss>(scratch, ks, map_(r).facets(), fresnel));
-      }
+      facets_.with(roughness_(at), map_, [&]<class Distribution>(const Distribution& facets) {
+        using OneSided = MicrofacetReflection<Distribution, DielectricFresnel>;
+        using TwoSided = MicrofacetReflection<Distribution, TwoSidedFresnel>;
+        if constexpr (std::is_same_v<Distribution, Blinn>)
+          bsdf.add(place<TwoSided>(scratch, ks, facets, TwoSidedFresnel{fresnel.eta}));
+        else
+          bsdf.add(place<OneSided>(scratch, ks, facets, fresnel));
+      });
     }
     if (!isBlack(kr)) bsdf.add(place<SpecularReflection<DielectricFresnel>>(scratch, kr, fresnel));
     if (!isBlack(kt)) bsdf.add(place<SpecularTransmission>(scratch, kt, index));
@@ -53,7 +53,7 @@ class Uber final : public Material {
   Textured<Spectrum> kd_, ks_, kr_, kt_, opacity_;
   Roughness roughness_;
   RoughnessMap map_;
-  bool blinn_;
+  Facets facets_;
   RefractiveIndex index_;
   std::optional<Textured<float>> bump_;
 };

@@ -19,6 +19,10 @@ std::optional<BsdfSample> Bxdf::sample(const Vec3& wo, Point2 u) const {
   return s;
 }
 
+float Bxdf::weight(const Vec3& /*wo*/) const {
+  return 1;
+}
+
 namespace {
 
 // `wanted` without the lobes that have nothing to say about this pair of directions: those of the
@@ -40,6 +44,7 @@ class Scaled final : public Bxdf {
     if (s) s->f *= by_;
     return s;
   }
+  float weight(const Vec3& wo) const override { return luminance(by_) * lobe_.weight(wo); }
 
  private:
   const Bxdf& lobe_;
@@ -75,50 +80,63 @@ Spectrum Bsdf::f(const Vec3& wo, const Vec3& wi, std::uint8_t wanted) const {
   return f;
 }
 
+float Bsdf::chances(const Vec3& wo, std::uint8_t wanted, Chances& chances) const {
+  if (count_ == 1) return chances[0] = lobes_[0]->matches(wanted) ? 1.F : 0.F;
+  float sum = 0;
+  for (int l = 0; l < count_; ++l)
+    sum += chances[l] = lobes_[l]->matches(wanted) ? lobes_[l]->weight(wo) : 0;
+  return sum;
+}
+
 float Bsdf::pdf(const Vec3& wo, const Vec3& wi, std::uint8_t wanted) const {
   const Vec3 o = frame_.toLocal(wo), i = frame_.toLocal(wi);
+  Chances chance;
+  const float total = chances(o, wanted, chance);
   float sum = 0;
-  int n = 0;
   for (int l = 0; l < count_; ++l)
-    if (lobes_[l]->matches(wanted)) {
-      ++n;
-      if (!(lobes_[l]->flags() & kSpecular)) sum += lobes_[l]->pdf(o, i);
-    }
-  return n > 0 ? sum / static_cast<float>(n) : 0;
+    if (chance[l] > 0 && !(lobes_[l]->flags() & kSpecular)) sum += chance[l] * lobes_[l]->pdf(o, i);
+  return sum > 0 ? sum / total : 0;
 }
 
 std::optional<BsdfSample> Bsdf::sample(const Vec3& wo, Point2 u, std::uint8_t wanted) const {
-  const int n = lobes(wanted);
-  if (n == 0) return {};
-  const float stretched = u.x * static_cast<float>(n);
-  const int choice = std::min(static_cast<int>(stretched), n - 1);
+  const Vec3 o = frame_.toLocal(wo);
+  Chances chance;
+  const float total = chances(o, wanted, chance);
+  if (!(total > 0)) return {};
   int chosen = 0;
-  for (int skip = choice; !lobes_[chosen]->matches(wanted) || skip-- > 0;) ++chosen;
+  float rest = u.x * total;
+  for (int l = 0; l < count_; ++l) {
+    if (!(chance[l] > 0)) continue;
+    chosen = l;
+    if (rest < chance[l]) break;
+    rest -= chance[l];
+  }
   const Bxdf& lobe = *lobes_[chosen];
 
-  const Vec3 o = frame_.toLocal(wo);
-  u.x = std::min(stretched - static_cast<float>(choice), kOneMinusEpsilon);
+  u.x = std::min(rest / chance[chosen], kOneMinusEpsilon);
   std::optional<BsdfSample> s = lobe.sample(o, u);
   if (!s || !(s->pdf > 0)) return {};
   const Vec3 i = s->wi;
   s->wi = frame_.fromLocal(i);
   s->flags = lobe.flags();
+  s->pdf *= chance[chosen];
   if (!(lobe.flags() & kSpecular)) {
     const std::uint8_t side = onSide(wo, s->wi, n_, wanted);
     if (!lobe.matches(side)) s->f = Spectrum(0);
     for (int l = 0; l < count_; ++l) {
-      if (l == chosen || !lobes_[l]->matches(wanted)) continue;
-      if (!(lobes_[l]->flags() & kSpecular)) s->pdf += lobes_[l]->pdf(o, i);
+      if (l == chosen) continue;
+      if (chance[l] > 0 && !(lobes_[l]->flags() & kSpecular))
+        s->pdf += chance[l] * lobes_[l]->pdf(o, i);
       if (lobes_[l]->matches(side)) s->f += lobes_[l]->f(o, i);
     }
   }
-  s->pdf /= static_cast<float>(n);
+  s->pdf /= total;
   return s;
 }
 
 Spectrum Bsdf::rho(const Vec3& wo) const {
   // Points of Hammersley's set, in the middle of their cells: on the edge of the unit square lies
-  // the horizon. A multiple of 2, 3 and 4 shares them out evenly over the lobes.
+  // the horizon.
   constexpr std::uint32_t kPoints = 24, kHalfCell = 1U << 26U;
   const Vec3 normal = frame_.fromLocal({0, 0, 1});
   Spectrum sum(0);

@@ -50,6 +50,9 @@ class Bxdf {
   // Default: cosine-weighted on wo's side.
   virtual float pdf(const Vec3& wo, const Vec3& wi) const;
   virtual std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const;
+  // A cheap guess of the share of the light from wo's side that is scattered, by which a Bsdf
+  // shares out its samples. Zero only where sample() would give nothing. Default: one.
+  virtual float weight(const Vec3& wo) const;
 
  protected:
   ~Bxdf() = default;  // never destroyed through the base; see Scratch
@@ -78,8 +81,8 @@ class Bsdf {
   // leak no light (Veach 1997, section 5.3).
   Spectrum f(const Vec3& wo, const Vec3& wi, std::uint8_t wanted = kAllLobes) const;
   float pdf(const Vec3& wo, const Vec3& wi, std::uint8_t wanted = kAllLobes) const;
-  // Chooses a lobe with equal chances by u.x, then a direction; f and pdf are those of the whole
-  // (unless the lobe is specular). Empty: no sample.
+  // Chooses a lobe by u.x, with chances by their weights, then a direction; f and pdf are those of
+  // the whole (unless the lobe is specular). Empty: no sample.
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u, std::uint8_t wanted = kAllLobes) const;
 
   // How much of the light from wo's side is scattered, integral of f(wo, wi) |cos wi| dwi,
@@ -90,6 +93,10 @@ class Bsdf {
   const Frame& frame() const { return frame_; }
 
  private:
+  using Chances = std::array<float, kMaxLobes>;
+  // Of each lobe to be chosen for wo (local), up to a common factor: their sum, which is returned.
+  float chances(const Vec3& wo, std::uint8_t wanted, Chances& chances) const;
+
   Frame frame_;
   Normal3 n_;
   int count_ = 0;

@@ -17,6 +17,7 @@ class Lambertian final : public Bxdf {
   explicit Lambertian(const Spectrum& reflectance)
       : Bxdf(kReflection | kDiffuse), f_(reflectance * kInvPi) {}
   Spectrum f(const Vec3& wo, const Vec3& wi) const override;
+  float weight(const Vec3&) const override { return kPi * luminance(f_); }
 
  private:
   Spectrum f_;
@@ -28,6 +29,7 @@ class OrenNayar final : public Bxdf {
  public:
   OrenNayar(const Spectrum& reflectance, float sigma);
   Spectrum f(const Vec3& wo, const Vec3& wi) const override;
+  float weight(const Vec3&) const override { return kPi * luminance(f_); }
 
  private:
   Spectrum f_;
@@ -46,6 +48,7 @@ class SpecularReflection final : public Bxdf {
     if (absCosTheta(wo) < kMinCosine) return {};
     return BsdfSample{fresnel_(wo.z) * reflectance_ / absCosTheta(wo), {-wo.x, -wo.y, wo.z}, 1};
   }
+  float weight(const Vec3& wo) const override { return luminance(fresnel_(wo.z) * reflectance_); }
 
  private:
   Spectrum reflectance_;
@@ -61,6 +64,9 @@ class SpecularTransmission final : public Bxdf {
   Spectrum f(const Vec3& wo, const Vec3& wi) const override;
   float pdf(const Vec3& wo, const Vec3& wi) const override;
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override;
+  float weight(const Vec3& wo) const override {
+    return (1 - fresnelDielectric(wo.z, eta_)) * luminance(transmittance_);
+  }
 
  private:
   Spectrum transmittance_;
@@ -79,6 +85,9 @@ class StraightTransmission final : public Bxdf {
   std::optional<BsdfSample> sample(const Vec3& wo, Point2) const override {
     if (absCosTheta(wo) < kMinCosine) return {};
     return BsdfSample{(1 - fresnel_(wo.z)) * transmittance_ / absCosTheta(wo), -wo, 1};
+  }
+  float weight(const Vec3& wo) const override {
+    return (1 - fresnel_(wo.z)) * luminance(transmittance_);
   }
 
  private:
@@ -99,6 +108,7 @@ class Through final : public Bxdf {
     if (s) s->wi = mirrored(s->wi);
     return s;
   }
+  float weight(const Vec3& wo) const override { return lobe_.weight(wo); }
 
  private:
   static Vec3 mirrored(const Vec3& w) { return {w.x, w.y, -w.z}; }
@@ -136,7 +146,7 @@ class MicrofacetReflection final : public Bxdf {
     if (!sameHemisphere(wo, wi)) return 0;
     Vec3 h;
     const float cosH = halfVector(wo, wi, h);
-    return cosH > 0 ? distribution_.reflectedPdf(wo, cosH, distribution_.D(h)) : 0;
+    return cosH > 0 ? distribution_.reflectedPdf(wo, h, cosH, distribution_.D(h)) : 0;
   }
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
     if (absCosTheta(wo) < kMinCosine) return {};
@@ -145,8 +155,9 @@ class MicrofacetReflection final : public Bxdf {
     const Vec3 wi = 2 * cosH * h - wo;
     if (!(cosH > 0) || !sameHemisphere(wo, wi) || absCosTheta(wi) < kMinCosine) return {};
     const float D = distribution_.D(h);
-    return BsdfSample{value(wo, wi, h, cosH, D), wi, distribution_.reflectedPdf(wo, cosH, D)};
+    return BsdfSample{value(wo, wi, h, cosH, D), wi, distribution_.reflectedPdf(wo, h, cosH, D)};
   }
+  float weight(const Vec3& wo) const override { return luminance(fresnel_(wo.z) * reflectance_); }
 
  private:
   Spectrum value(const Vec3& wo, const Vec3& wi, const Vec3& h, float cosH, float D) const {

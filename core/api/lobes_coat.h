@@ -72,6 +72,9 @@ class CoatedDiffuse final : public Bxdf {
     if (!sameHemisphere(wo, wi)) return Spectrum(0);
     return base_ * (coat_.transmittance(wo.z) * coat_.transmittance(wi.z));
   }
+  float weight(const Vec3& wo) const override {
+    return kPi * luminance(base_) * coat_.transmittance(wo.z);
+  }
 
  private:
   Spectrum base_;
@@ -102,6 +105,9 @@ class CoatedConductor final : public Bxdf {
     std::optional<BsdfSample> s = facets_.sample(wo, u);
     if (s) s->f *= filtered(wo, s->wi);
     return s;
+  }
+  float weight(const Vec3& wo) const override {
+    return sqr(coat_.transmittance(wo.z)) * luminance(conductor_(1));
   }
 
  private:

@@ -51,6 +51,10 @@ class MicrofacetTransmission final : public Bxdf {
     s.eta = facet.eta;
     return s;
   }
+  // Where the surface as a whole reflects totally, some facets do not.
+  float weight(const Vec3& wo) const override {
+    return std::max(0.3F, 1 - fresnelDielectric(wo.z, eta_)) * luminance(transmittance_);
+  }
 
  private:
   // The normal h on wo's side of a facet that refracts one direction into the other.
@@ -84,7 +88,7 @@ class MicrofacetTransmission final : public Bxdf {
     return D * G * (1 - F) * facet.cosO * jacobian(facet) * transmittance_;
   }
   float density(const Vec3& wo, const Facet& facet, float D) const {
-    const float visible = 4 * facet.cosO * distribution_.reflectedPdf(wo, facet.cosO, D);
+    const float visible = 4 * facet.cosO * distribution_.reflectedPdf(wo, facet.h, facet.cosO, D);
     return visible * sqr(facet.eta) * jacobian(facet);
   }
 
@@ -115,22 +119,23 @@ class FresnelBlend final : public Bxdf {
     const Spectrum F = specular_ + pow5(1 - cosH) * (1.F - specular_);
     return base + distribution_.D(h) / (4 * cosH * std::max(o, i)) * F;
   }
-  // Half of the samples go by the cosine, half by the facets.
+  // The base's share of the samples goes by the cosine, the rest by the facets.
   float pdf(const Vec3& wo, const Vec3& wi) const override {
     if (!sameHemisphere(wo, wi)) return 0;
     Vec3 h;
-    const float cosH = halfVector(wo, wi, h);
-    return 0.5F * (cosHemispherePdf(absCosTheta(wi)) +
-                   (cosH > 0 ? distribution_.reflectedPdf(wo, cosH, distribution_.D(h)) : 0));
+    const float cosH = halfVector(wo, wi, h), base = basesShare(wo);
+    const float facets = cosH > 0 ? distribution_.reflectedPdf(wo, h, cosH, distribution_.D(h)) : 0;
+    return base * cosHemispherePdf(absCosTheta(wi)) + (1 - base) * facets;
   }
   std::optional<BsdfSample> sample(const Vec3& wo, Point2 u) const override {
     if (absCosTheta(wo) < kMinCosine) return {};
     BsdfSample s;
-    if (u.x < 0.5F) {
-      s.wi = cosHemisphere({2 * u.x, u.y});
+    const float base = basesShare(wo);
+    if (u.x < base) {
+      s.wi = cosHemisphere({std::min(u.x / base, kOneMinusEpsilon), u.y});
       if (wo.z < 0) s.wi.z = -s.wi.z;
     } else {
-      u.x = std::min(2 * u.x - 1, kOneMinusEpsilon);
+      u.x = std::min((u.x - base) / (1 - base), kOneMinusEpsilon);
       const Vec3 h = wo.z > 0 ? distribution_.sample(wo, u) : -distribution_.sample(-wo, u);
       s.wi = 2 * glm::dot(wo, h) * h - wo;
     }
@@ -139,9 +144,22 @@ class FresnelBlend final : public Bxdf {
     s.f = f(wo, s.wi);
     return s;
   }
+  float weight(const Vec3& wo) const override { return basesAlbedo(wo) + glossAlbedo(wo); }
 
  private:
   static float pow5(float x) { return sqr(sqr(x)) * x; }
+  // The base's, the integral of its last factor being 23 pi / 28; and a guess of the gloss's.
+  float basesAlbedo(const Vec3& wo) const {
+    return 23 * kPi / 28 * luminance(diffuse_) * (1 - pow5(1 - 0.5F * absCosTheta(wo)));
+  }
+  float glossAlbedo(const Vec3& wo) const {
+    const float r = luminance(specular_);
+    return r + pow5(1 - absCosTheta(wo)) * (1 - r);
+  }
+  float basesShare(const Vec3& wo) const {
+    const float base = basesAlbedo(wo);
+    return base / (base + glossAlbedo(wo));
+  }
 
   Spectrum diffuse_, specular_;
   Distribution distribution_;

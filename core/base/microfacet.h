@@ -3,8 +3,8 @@
 // D(h): density of facets, such that the integral of D(h) cos(h) over the hemisphere is 1.
 // masking(wo, wi, h, cosH): G / (4 |cos o| |cos i|), which Torrance and Sparrow's model (1967)
 //   multiplies with D and the Fresnel term; both cosines are non-zero.
-// sample(wo, u): a normal for wo in the upper hemisphere.
-// reflectedPdf(wo, cosH, D): solid-angle density of the direction that such a normal reflects wo
+// sample(wo, u): a normal in the upper hemisphere that wo sees.
+// reflectedPdf(wo, h, cosH, D): solid-angle density of the direction that such a normal reflects wo
 //   into; d wh = d wi / (4 wo.h).
 // cosH is wo.h = wi.h >= 0 throughout.
 
@@ -30,18 +30,21 @@ class Blinn {
     const float G = std::min(1.F, 2 * absCosTheta(h) * std::min(o, i) / cosH);
     return G / (4 * o * i);
   }
-  // Density sqrt((ex + 1) (ey + 1)) / (2 pi) cos^e. Its azimuths are those of an ellipse, which has
-  // uniform ones when stretched to a circle; then cdf^-1(u) = u^(1 / (e + 1)).
-  Vec3 sample(const Vec3& /*wo*/, Point2 u) const {
+  // By D cos(h), whose azimuths are those of an ellipse, which has uniform ones when stretched to a
+  // circle; then cdf^-1(u) = u^(1 / (e + 2)). A groove has the facets h and h' (mirrored about z):
+  // if wo does not see the one, it is replaced by the other, which then counts twice.
+  Vec3 sample(const Vec3& wo, Point2 u) const {
     const float circle = 2 * kPi * u.y;
-    Vec3 h(std::sqrt(ey_ + 1) * std::cos(circle), std::sqrt(ex_ + 1) * std::sin(circle), 0);
+    Vec3 h(std::sqrt(ey_ + 2) * std::cos(circle), std::sqrt(ex_ + 2) * std::sin(circle), 0);
     h /= std::sqrt(lengthSquared(h));
-    const float cosTheta = std::pow(u.x, 1 / (exponent(h) + 1));
+    const float cosTheta = std::pow(u.x, 1 / (exponent(h) + 2));
     const float sinTheta = safeSqrt(1 - cosTheta * cosTheta);
-    return {sinTheta * h.x, sinTheta * h.y, cosTheta};
+    h = {sinTheta * h.x, sinTheta * h.y, cosTheta};
+    return glm::dot(wo, h) < 0 ? Vec3(-h.x, -h.y, h.z) : h;
   }
-  float reflectedPdf(const Vec3& /*wo*/, float cosH, float D) const {
-    return D * std::sqrt((ex_ + 1) * (ey_ + 1) / ((ex_ + 2) * (ey_ + 2))) / (4 * cosH);
+  float reflectedPdf(const Vec3& wo, const Vec3& h, float cosH, float D) const {
+    const float toOther = 2 * wo.z * h.z - cosH;  // wo.h'
+    return D * absCosTheta(h) * (toOther < 0 ? 2 : 1) / (4 * cosH);
   }
 
  private:
@@ -94,7 +97,7 @@ class TrowbridgeReitz {
     return glm::normalize(Vec3(alphaX_ * n.x, alphaY_ * n.y, std::max(1e-6F, n.z)));
   }
   // Visible normals have density D G1(wo) wo.h / cos o.
-  float reflectedPdf(const Vec3& wo, float /*cosH*/, float D) const {
+  float reflectedPdf(const Vec3& wo, const Vec3& /*h*/, float /*cosH*/, float D) const {
     return 0.5F * D / (absCosTheta(wo) + stretchedLength(wo));
   }
 
@@ -102,6 +105,75 @@ class TrowbridgeReitz {
   float stretchedLength(const Vec3& w) const {
     return std::sqrt(sqr(w.z) + sqr(alphaX_ * w.x) + sqr(alphaY_ * w.y));
   }
+
+  float alphaX_, alphaY_;
+};
+
+// Beckmann and Spizzichino 1963: normally distributed slopes, of the variances alphaX^2 / 2 and
+// alphaY^2 / 2. Height-correlated Smith masking (Heitz 2014, equations 72 and 99):
+//   G = 1 / (1 + L(o) + L(i)),  L(w) = (erf(a) - 1) / 2 + exp(-a^2) / (2 a sqrt(pi)),
+// where 1 / a is the slope of w's horizontal part over its height, in units of the widths.
+class Beckmann {
+ public:
+  Beckmann(float alphaX, float alphaY)
+      : alphaX_(std::clamp(alphaX, TrowbridgeReitz::kMin, TrowbridgeReitz::kMax)),
+        alphaY_(std::clamp(alphaY, TrowbridgeReitz::kMin, TrowbridgeReitz::kMax)) {}
+
+  float D(const Vec3& h) const {
+    const float cos2 = sqr(h.z), slope2 = (sqr(h.x / alphaX_) + sqr(h.y / alphaY_)) / cos2;
+    return slope2 < 80 ? std::exp(-slope2) / (kPi * alphaX_ * alphaY_ * sqr(cos2)) : 0;
+  }
+  float masking(const Vec3& wo, const Vec3& wi, const Vec3& /*h*/, float /*cosH*/) const {
+    const float o = absCosTheta(wo), i = absCosTheta(wi);
+    return 0.25F / (o * i + i * hidden(wo) + o * hidden(wi));
+  }
+  // The normals visible from wo (Heitz and d'Eon 2014, section 4): stretched to widths of 1, wo is
+  // at theta from the normal and sees the slopes x towards it with the density below, and all
+  // slopes across.
+  Vec3 sample(const Vec3& wo, Point2 u) const {
+    const Vec3 v = glm::normalize(Vec3(alphaX_ * wo.x, alphaY_ * wo.y, wo.z));
+    const float sinTheta = std::sqrt(v.x * v.x + v.y * v.y);
+    const Vec2 towards = sinTheta > 0 ? Vec2(v) / sinTheta : Vec2(1, 0);
+    const float x = visibleSlope(v.z, sinTheta, u.x), y = visibleSlope(1, 0, u.y);
+    return glm::normalize(Vec3(alphaX_ * (x * towards.x - y * towards.y),
+                               alphaY_ * (x * towards.y + y * towards.x), 1));
+  }
+  float reflectedPdf(const Vec3& wo, const Vec3& /*h*/, float /*cosH*/, float D) const {
+    return 0.25F * D / (absCosTheta(wo) + hidden(wo));
+  }
+
+ private:
+  static constexpr float kInvRootPi = std::numbers::inv_sqrtpi_v<float>;
+
+  float hidden(const Vec3& w) const {  // L(w) |cos w|
+    const float o = absCosTheta(w), s = std::sqrt(sqr(alphaX_ * w.x) + sqr(alphaY_ * w.y));
+    if (o > 4 * s) return 0;
+    const float a = o / s;
+    return 0.5F * (kInvRootPi * s * std::exp(-a * a) - o * std::erfc(a));
+  }
+  // Slopes s have the density (cos + s sin) exp(-s^2) where that is positive, from s0 = -cot on.
+  // Its integral from s on, which is to be the share u of the whole, is
+  //   S(s) = cos erfc(s) / 2 + sin exp(-s^2) / (2 sqrt(pi))       (times sqrt(pi)).
+  // By Newton's steps, and by halving where they lead out of the bracket.
+  static float visibleSlope(float cosTheta, float sinTheta, float u) {
+    const auto beyond = [&](float s) {
+      return 0.5F * (cosTheta * std::erfc(s) + kInvRootPi * sinTheta * std::exp(-s * s));
+    };
+    float low = std::max(-kSteepest, -cosTheta / std::max(sinTheta, 1e-6F)), high = kSteepest;
+    const float wanted = u * beyond(low);
+    float s = 0.5F * (std::max(low, -1.F) + 1);
+    for (int i = 0; i < 30; ++i) {
+      const float excess = beyond(s) - wanted;
+      (excess > 0 ? low : high) = s;
+      const float slope = kInvRootPi * (cosTheta + s * sinTheta) * std::exp(-s * s);
+      float next = s + excess / slope;
+      if (!(next > low && next < high)) next = 0.5F * (low + high);
+      if (std::abs(next - s) < 1e-6F) return next;
+      s = next;
+    }
+    return s;
+  }
+  static constexpr float kSteepest = 5;  // exp(-s^2) is nothing beside 1
 
   float alphaX_, alphaY_;
 };

@@ -6,7 +6,7 @@
 
 namespace pbrt {
 
-// The widths of a Trowbridge-Reitz distribution.
+// The widths of a Trowbridge-Reitz or Beckmann distribution.
 struct FacetWidths {
   float x = 0, y = 0;
   bool smooth = true;  // a perfect mirror, without facets
@@ -20,7 +20,7 @@ class RoughnessMap {
   explicit RoughnessMap(Params& p) {
     const bool remap = p.flag("remaproughness", true,
                               "roughness is from 0 to 1, not the distribution's own alpha "
-                              "(trowbridgereitz)");
+                              "(not of blinn)");
     constexpr std::string_view kinds[] = {"v3", "v4"};
     const std::string kind =
         p.choice("remapping", kinds, "v3",
@@ -44,13 +44,35 @@ class RoughnessMap {
   Kind kind_ = Kind::none;
 };
 
-// Whether the facets' normals follow Blinn's distribution with the exponent 1 / roughness, as in
-// pbrt-v1 and v2.
-inline bool readBlinn(Params& p) {
-  constexpr std::string_view kinds[] = {"trowbridgereitz", "blinn"};
-  return p.choice("distribution", kinds, kinds[0],
-                  "of the facets' normals; blinn has the exponent 1 / roughness") == kinds[1];
-}
+// Which distribution the facets' normals follow.
+class Facets {
+ public:
+  // `blinn`: whether Blinn's, with the exponent 1 / roughness, is one of them: pbrt-v1's and v2's.
+  explicit Facets(Params& p, bool blinn = true) {
+    constexpr std::string_view kinds[] = {"trowbridgereitz", "beckmann", "blinn"};
+    const std::string kind =
+        p.choice("distribution", std::span(kinds).first(blinn ? 3 : 2), kinds[0],
+                 blinn ? "of the facets' normals; blinn has the exponent 1 / roughness"
+                       : "of the facets' normals");
+    kind_ = kind == kinds[0]   ? Kind::trowbridgeReitz
+            : kind == kinds[1] ? Kind::beckmann
+                               : Kind::blinn;
+  }
+
+  bool blinn() const { return kind_ == Kind::blinn; }
+  // use(distribution), of that roughness.
+  template <class Use>
+  void with(Vec2 roughness, const RoughnessMap& map, Use&& use) const {
+    if (blinn()) return use(Blinn(roughness.x, roughness.y));
+    const FacetWidths widths = map(roughness);
+    if (kind_ == Kind::beckmann) return use(Beckmann(widths.x, widths.y));
+    use(widths.facets());
+  }
+
+ private:
+  enum class Kind { trowbridgeReitz, beckmann, blinn };
+  Kind kind_ = Kind::trowbridgeReitz;
+};
 
 // Roughness along the tangent (u) and across it (v).
 class Roughness {

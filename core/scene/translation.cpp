@@ -17,7 +17,6 @@ constexpr std::string_view kRadii = "xradius xwidth, yradius ywidth";
 constexpr std::string_view kLights = "lightsampler lightsamplestrategy, regularize -";
 constexpr std::string_view kNoise = "the noise of the picture is not the same";
 constexpr std::string_view kPaths = "paths find the same light, at another cost";
-constexpr std::string_view kPaint = "its measured gloss is left out";
 
 constexpr std::array kTable = {
     // name, generations, here, parameters, what differs
@@ -63,13 +62,6 @@ constexpr std::array kTable = {
     Translation{material, "coateddiffuse", "v4", "coateddiffuse", kBump, ""},
     Translation{material, "coatedconductor", "v4", "coatedconductor", kBump, ""},
     Translation{material, "diffusetransmission", "v4", "diffusetransmission", kBump, ""},
-    Translation{material, "bluepaint", "v1", "matte", "", kPaint},
-    Translation{material, "clay", "v1", "matte", "", kPaint},
-    Translation{material, "felt", "v1", "matte", "", kPaint},
-    Translation{material, "primer", "v1", "matte", "", kPaint},
-    Translation{material, "skin", "v1", "matte", "", kPaint},
-    Translation{material, "brushedmetal", "v1", "metal", "",
-                "rough aluminium stands for what was measured"},
     Translation{material, "measured", "v2 v4", "", "", ""},
     Translation{material, "subsurface", "v2 v3 v4", "", "", ""},
     Translation{material, "kdsubsurface", "v2 v3", "", "", ""},

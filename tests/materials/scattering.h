@@ -24,10 +24,15 @@ class Scattering {
     material.scatter(at, bsdf_, scratch_);
   }
   explicit Scattering(const std::string& name, const ParamList& list = {})
-      : Scattering(*make<Material>(name, list)) {}
+      : Scattering(std::shared_ptr<const Material>(make<Material>(name, list))) {}
   const Bsdf* operator->() const { return &bsdf_; }
 
  private:
+  explicit Scattering(std::shared_ptr<const Material> material) : Scattering(*material) {
+    material_ = std::move(material);
+  }
+
+  std::shared_ptr<const Material> material_;  // lobes may refer to it
   Scratch scratch_;
   Bsdf bsdf_;
 };
@@ -36,6 +41,20 @@ inline Vec3 direction(double degrees, double phi = 0.7) {
   const double theta = degrees * std::numbers::pi / 180;
   return {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
 }
+
+// Of estimates of one number.
+struct Moments {
+  int n = 0;
+  double mean = 0, squares = 0;  // of the deviations from the mean
+
+  void add(double x) {
+    const double before = x - mean;
+    mean += before / ++n;
+    squares += before * (x - mean);
+  }
+  double variance() const { return squares / (n - 1); }
+  double error() const { return std::sqrt(variance() / n); }  // of the mean
+};
 
 // The share of light from wo that is scattered into the wanted lobes, by Monte Carlo over sample().
 inline double albedo(const Bsdf& bsdf, const Vec3& wo, int samples,

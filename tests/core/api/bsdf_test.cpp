@@ -11,7 +11,8 @@ namespace {
 // Remembers what it was asked.
 class Probe final : public Bxdf {
  public:
-  Probe(std::uint8_t flags, float value) : Bxdf(flags), value_(value) {}
+  Probe(std::uint8_t flags, float value, float weight = 1)
+      : Bxdf(flags), value_(value), weight_(weight) {}
   Spectrum f(const Vec3&, const Vec3&) const override {
     ++calls;
     return Spectrum(value_);
@@ -21,12 +22,13 @@ class Probe final : public Bxdf {
     last = u;
     return BsdfSample{Spectrum(value_), {0.6F, 0, 0.8F}, value_};
   }
+  float weight(const Vec3&) const override { return weight_; }
 
   mutable int calls = 0;
   mutable Point2 last{-1};
 
  private:
-  float value_;
+  float value_, weight_;
 };
 
 SurfaceInteraction tilted() {
@@ -83,28 +85,48 @@ TEST(Bsdf, AsksOnlyLobesThatMatch) {
   EXPECT_EQ(mirror.calls, 0);
 }
 
-TEST(Bsdf, ChoosesWithEqualChancesAndUsesTheRestOfU) {
-  const Probe a(kReflection | kDiffuse, 1), skipped(kTransmission | kDiffuse, 9),
-      b(kReflection | kGlossy, 3);
+TEST(Bsdf, ChoosesByWeightAndUsesTheRestOfU) {
+  const Probe a(kReflection | kDiffuse, 1, 0.5F), skipped(kTransmission | kDiffuse, 9),
+      b(kReflection | kGlossy, 3, 1.5F);
   Bsdf bsdf(flat());
   for (const Probe* p : {&a, &skipped, &b}) bsdf.add(p);
   constexpr std::uint8_t wanted = kReflection | kDiffuse | kGlossy;
-  auto s = bsdf.sample({0, 0, 1}, {0.25F, 0.125F}, wanted);
+  auto s = bsdf.sample({0, 0, 1}, {0.125F, 0.125F}, wanted);
   ASSERT_TRUE(s);
   EXPECT_EQ(a.last, Point2(0.5F, 0.125F));
   EXPECT_EQ(b.last.x, -1);
   // Value and density are those of the whole.
   EXPECT_EQ(s->f.x, 4);
-  EXPECT_EQ(s->pdf, 2);
+  EXPECT_EQ(s->pdf, 0.25F * 1 + 0.75F * 3);
+  EXPECT_EQ(bsdf.pdf({0, 0, 1}, {0, 0, 1}, wanted), s->pdf);
   EXPECT_EQ(s->flags, kReflection | kDiffuse);
 
-  s = bsdf.sample({0, 0, 1}, {0.75F, 0.25F}, wanted);
+  s = bsdf.sample({0, 0, 1}, {0.625F, 0.25F}, wanted);
   ASSERT_TRUE(s);
   EXPECT_EQ(b.last, Point2(0.5F, 0.25F));
   EXPECT_EQ(s->flags, kReflection | kGlossy);
   bsdf.sample({0, 0, 1}, {kOneMinusEpsilon, 0}, wanted);
   EXPECT_LT(b.last.x, 1);
   EXPECT_GT(b.last.x, 0.999F);
+}
+
+TEST(Bsdf, LobesWithoutWeightAreNotChosenButSeen) {
+  const Probe a(kReflection | kDiffuse, 1), nothing(kReflection | kGlossy, 3, 0);
+  Bsdf bsdf(flat());
+  bsdf.add(&a);
+  bsdf.add(&nothing);
+  for (const float u : {0.F, 0.5F, kOneMinusEpsilon}) {
+    const auto s = bsdf.sample({0, 0, 1}, {u, 0.5F});
+    ASSERT_TRUE(s);
+    EXPECT_EQ(s->pdf, 1);
+    EXPECT_EQ(s->f.x, 4);
+  }
+  EXPECT_EQ(nothing.last.x, -1);
+  // Alone it still is.
+  Bsdf alone(flat());
+  alone.add(&nothing);
+  EXPECT_TRUE(alone.sample({0, 0, 1}, {0.5F, 0.5F}));
+  EXPECT_FALSE(alone.sample({0, 0, 1}, {0.5F, 0.5F}, kReflection | kDiffuse));
 }
 
 TEST(Bsdf, SpecularSamplesStandAlone) {
@@ -116,10 +138,10 @@ TEST(Bsdf, SpecularSamplesStandAlone) {
   const auto s = bsdf.sample({0.6F, 0, 0.8F}, {0.75F, 0});
   ASSERT_TRUE(s);
   EXPECT_FLOAT_EQ(s->f.x * 0.8F, 0.5F);
-  EXPECT_EQ(s->pdf, 0.5F);
+  EXPECT_FLOAT_EQ(s->pdf, 1 / 3.F);
   EXPECT_EQ(s->wi, Vec3(-0.6F, 0, 0.8F));
-  // The density of the others is halved by the chance that the mirror was chosen.
-  EXPECT_EQ(bsdf.pdf({0, 0, 1}, {0, 0, 1}), 2.5F);
+  // The density of the others is lessened by the chance that the mirror was chosen.
+  EXPECT_FLOAT_EQ(bsdf.pdf({0, 0, 1}, {0, 0, 1}), 5 * 2 / 3.F);
 }
 
 // A direction that the shading frame sends below the surface carries no reflection.

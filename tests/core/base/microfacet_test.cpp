@@ -47,7 +47,7 @@ void checkDistribution(const Distribution& d) {
       sampled += width(h) / n;
       if (wi.z <= 1e-6F) continue;
       const float D = d.D(h), value = D * d.masking(wo, wi, h, cosH);
-      share += value * wi.z / d.reflectedPdf(wo, cosH, D) / n;
+      share += value * wi.z / d.reflectedPdf(wo, h, cosH, D) / n;
       ASSERT_NEAR(value, D * d.masking(wi, wo, h, cosH), 1e-4F * value);
     }
     // Masked facets reflect nothing, no facet reflects twice.
@@ -55,7 +55,7 @@ void checkDistribution(const Distribution& d) {
     // Samples are as wide as the density says, which is 4 cosH times that of the reflection.
     EXPECT_NEAR(sampled, overHemisphere([&](const Vec3& h) {
                   const float cosH = glm::dot(wo, h);
-                  return cosH > 0 ? width(h) * 4 * cosH * d.reflectedPdf(wo, cosH, d.D(h)) : 0;
+                  return cosH > 0 ? width(h) * 4 * cosH * d.reflectedPdf(wo, h, cosH, d.D(h)) : 0;
                 }),
                 0.03)
         << z;
@@ -72,18 +72,53 @@ TEST(Microfacet, TrowbridgeReitz) {
   checkDistribution(TrowbridgeReitz(0.1F, 0.5F));
 }
 
+TEST(Microfacet, Beckmann) {
+  for (const float alpha : {1.F, 0.3F, 0.05F}) checkDistribution(Beckmann(alpha, alpha));
+  checkDistribution(Beckmann(0.1F, 0.5F));
+}
+
 // Every visible normal is chosen with its share of the projected area, G1 D wo.h / cos o, which
-// integrates to one.
-TEST(Microfacet, VisibleNormalsAreAllThatIsSeen) {
-  const TrowbridgeReitz d(0.2F, 0.6F);
+// integrates to one; of the V-shaped grooves only visible normals are chosen, too.
+template <class Distribution>
+void checkVisible(const Distribution& d) {
   for (const float z : {0.05F, 0.5F, 1.F}) {
     const Vec3 wo(std::sqrt(1 - z * z), 0, z);
     EXPECT_NEAR(overHemisphere([&](const Vec3& h) {
                   const float cosH = glm::dot(wo, h);
-                  return cosH > 0 ? 4 * cosH * d.reflectedPdf(wo, cosH, d.D(h)) : 0;
+                  return cosH > 0 ? 4 * cosH * d.reflectedPdf(wo, h, cosH, d.D(h)) : 0;
                 }),
-                1, 5e-3);
+                1, 5e-3)
+        << z;
+    Rng rng(1);
+    for (int i = 0; i < 10000; ++i)
+      ASSERT_GE(glm::dot(wo, d.sample(wo, {rng.uniform(), rng.uniform()})), -1e-5F);
   }
+}
+
+TEST(Microfacet, VisibleNormalsAreAllThatIsSeen) {
+  checkVisible(TrowbridgeReitz(0.2F, 0.6F));
+  checkVisible(Beckmann(0.2F, 0.6F));
+  checkVisible(Blinn(0.2F, 0.6F));
+}
+
+// What a smooth distribution of slopes hides is what Smith's integral over them says: G1 is
+// cos o over the projected area of all facets that face wo (Heitz 2014, equation 23).
+template <class Distribution>
+void checkMasking(const Distribution& d) {
+  for (const float z : {0.05F, 0.3F, 0.8F}) {
+    const Vec3 wo(0.6F * std::sqrt(1 - z * z), 0.8F * std::sqrt(1 - z * z), z);
+    const double facing =
+        overHemisphere([&](const Vec3& h) { return std::max(0.F, glm::dot(wo, h)) * d.D(h); });
+    // Of normal incidence nothing is hidden, and the joint masking is that of the other direction.
+    const double G1 = d.masking(wo, {0, 0, 1}, {0, 0, 1}, 1) * 4 * z;
+    EXPECT_NEAR(G1 * facing, z, 2e-3 * z) << z;
+  }
+}
+
+TEST(Microfacet, MaskingLeavesWhatIsSeen) {
+  checkMasking(TrowbridgeReitz(0.2F, 0.6F));
+  checkMasking(Beckmann(0.2F, 0.6F));
+  checkMasking(Beckmann(1, 1));
 }
 
 // A wide x axis spreads the normals along x.
