@@ -9,8 +9,8 @@
 namespace pbrt {
 namespace {
 
-// Blocks of 2^7 by 2^7 pixels have a curve each: what is coarser than that is not seen as noise.
-constexpr int kLevels = 7;
+// Blocks of 2^6 by 2^6 pixels have a curve each: what is coarser than that is not seen as noise.
+constexpr int kLevels = 6;
 constexpr int kBlockMask = (1 << kLevels) - 1;
 
 // The lower 8 bits of v with a zero bit above each.
@@ -27,30 +27,38 @@ constexpr std::uint32_t mortonIndex(Point2i pixel) {
   return spreadBits((pixel.x ^ pixel.y) & kBlockMask) | spreadBits(pixel.y & kBlockMask) << 1U;
 }
 
-// A random permutation of {0, 1, 2, 3}. On two bits all 24 are a linear map and a shift. The map is
-// made of three steps, each taken or not, that add one bit to the other. So the upper bit, which
-// tells the halves of the next finer order apart, becomes that of q in 3/8 of all cases, the lower
-// one in 2/8, their sum in 3/8.
-constexpr std::uint64_t permuteQuarter(std::uint64_t q, std::uint64_t random) {
-  std::uint64_t upper = q >> 1U, lower = q & 1U;
-  upper ^= lower & random;
-  lower ^= upper & random >> 1U;
-  upper ^= lower & random >> 2U;
-  return (upper << 1U | lower) ^ (random >> 3U & 3U);
+// Permutations of {0, 1, 2, 3}, of which a random one is picked. On two bits all 24 are a linear
+// map and a shift. The map is made of three steps, each taken or not, that add one bit to the
+// other. So the upper bit, which tells the halves of the next finer order apart, becomes that of q
+// in 3/8 of all cases, the lower one in 2/8, their sum in 3/8.
+constexpr std::uint32_t permuteQuarter(std::uint32_t q, std::uint32_t which) {
+  std::uint32_t upper = q >> 1U, lower = q & 1U;
+  upper ^= lower & which;
+  lower ^= upper & which >> 1U;
+  upper ^= lower & which >> 2U;
+  return (upper << 1U | lower) ^ which >> 3U;
 }
+using Permutations = std::array<std::array<std::uint8_t, 4>, 32>;
+constexpr Permutations kPermutations = [] {
+  Permutations all{};
+  for (std::uint32_t which = 0; which < 32; ++which)
+    for (std::uint32_t q = 0; q < 4; ++q)
+      all[which][q] = static_cast<std::uint8_t>(permuteQuarter(q, which));
+  return all;
+}();
 
-// Place `i` on a curve of 2^bits places, those of a quarter, of a quarter of that ... in random
-// order: another order for each. An odd number of bits ends in a half.
-constexpr std::uint64_t permutePlaces(std::uint64_t i, int bits, std::uint64_t key) {
-  const auto random = [&](int below) {
-    return mixBits(key ^ (i >> below << 6U | unsigned(below)));
-  };
-  const int half = bits % 2;
-  std::uint64_t permuted = half ? (i ^ random(1)) & 1U : 0;
-  for (int shift = half; shift < bits; shift += 2)
-    permuted |= permuteQuarter(i >> shift & 3U, random(shift + 2)) << shift;
-  return permuted;
-}
+// Random numbers below 32 from hashes, another function of them for each key: any two of its values
+// are independent (Dietzfelbinger 1996).
+class Choice {
+ public:
+  explicit Choice(std::uint64_t key) : factor_(key | 1U), term_(mixBits(key)) {}
+  std::uint32_t operator()(std::uint64_t h) const {
+    return static_cast<std::uint32_t>((factor_ * h + term_) >> 59U);
+  }
+
+ private:
+  std::uint64_t factor_, term_;
+};
 
 class ZSobolSampler final : public Sampler {
  public:
@@ -69,6 +77,8 @@ class ZSobolSampler final : public Sampler {
     keys_.start(pixel, index);
     curve_.start({pixel.x >> kLevels, pixel.y >> kLevels}, index / count_);
     morton_ = mortonIndex(pixel);
+    for (int level = 0; level <= kLevels; ++level)
+      quadrants_[level] = quadrant(morton_ >> 2 * (kLevels - level), level);
     index_ = index % count_;
   }
 
@@ -107,16 +117,35 @@ class ZSobolSampler final : public Sampler {
   // lowdiscrepancy.cpp.
   std::uint32_t shuffled() const { return permute(index_, count_, keys_.pixel()); }
 
-  // Of place `i` of the 2^bits that the pixel has on the curve.
+  static std::uint64_t quadrant(std::uint64_t number, int level) {
+    return mixBits(number << 6U | static_cast<unsigned>(level));
+  }
+
+  // Which element of the block's part of the sequence is at place `i` of the 2^bits that the pixel
+  // has on the curve: the quadrants of a quadrant, down to the pixel, the quarters of its places,
+  // and of those, are in random order, another order for each. An odd number of bits ends in a
+  // half.
+  std::uint64_t element(std::uint32_t i, int bits, Choice choice) const {
+    std::uint64_t e = 0;
+    for (int level = 0; level < kLevels; ++level)
+      e = e << 2U |
+          kPermutations[choice(quadrants_[level])][morton_ >> 2 * (kLevels - 1 - level) & 3U];
+    std::uint64_t h = quadrants_[kLevels];
+    for (int level = kLevels; bits >= 2;
+         h = quadrant(std::uint64_t{morton_} << 32U | i >> bits, ++level)) {
+      bits -= 2;
+      e = e << 2U | kPermutations[choice(h)][i >> bits & 3U];
+    }
+    return bits ? e << 1U | ((i ^ choice(h)) & 1U) : e;
+  }
+
   Point2 point(std::uint32_t i, int bits) const {
     const std::uint64_t key = curve_.sample();
-    const std::uint64_t element =
-        permutePlaces(std::uint64_t{morton_} << bits | i, bits + 2 * kLevels, key);
+    const std::uint64_t e = element(i, bits, Choice(key));
     // Bits from the 33rd on are too fine for the first coordinate; in the second they count as
     // those 32 places before them, since sobolSecond() adds over supersets.
-    const std::uint32_t x = reverseBits(static_cast<std::uint32_t>(element));
-    const std::uint32_t y =
-        sobolSecond(x ^ reverseBits(static_cast<std::uint32_t>(element >> 32U)));
+    const std::uint32_t x = reverseBits(static_cast<std::uint32_t>(e));
+    const std::uint32_t y = sobolSecond(x ^ reverseBits(static_cast<std::uint32_t>(e >> 32U)));
     return {uniformFloat(randomize(x, how_, mixBits(key + 1))),
             uniformFloat(randomize(y, how_, mixBits(key + 2)))};
   }
@@ -127,6 +156,7 @@ class ZSobolSampler final : public Sampler {
   std::uint32_t count_;
   int bits_;  // of a sample's index
   std::uint32_t morton_ = 0, index_ = 0;
+  std::array<std::uint64_t, kLevels + 1> quadrants_{};  // hashes of those that hold the pixel
 };
 
 }  // namespace
