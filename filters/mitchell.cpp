@@ -10,14 +10,16 @@ class MitchellFilter final : public Filter {
   explicit MitchellFilter(Params& p)
       : Filter({p.positive("xwidth", 2, "half its width", "pixels"),
                 p.positive("ywidth", 2, "half its height", "pixels")}),
-        b_(p.number("B", 1.F / 3, "blurs")),
-        c_(p.number("C", 1.F / 3, "rings; B + 2 C = 1 is best")) {}
+        b_(p.inRange("B", 1.F / 3, -kMost, kMost, "blurs")),
+        c_(p.inRange("C", 1.F / 3, -kMost, kMost, "rings; B + 2 C = 1 is best")) {}
 
   float evaluate(Vec2 p) const override {
     return cubic(2 * p.x / radius().x) * cubic(2 * p.y / radius().y);
   }
 
  private:
+  static constexpr float kMost = 10;  // far beyond sense, far below overflow
+
   float cubic(float x) const {
     x = std::abs(x);
     if (x < 1)

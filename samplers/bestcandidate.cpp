@@ -6,8 +6,7 @@
 
 #include <vector>
 
-#include "core/base/lowdiscrepancy.h"
-#include "core/plugin/plugin.h"
+#include "core/plugin/sampler_params.h"
 
 namespace pbrt {
 namespace {
@@ -69,9 +68,8 @@ Point2 shifted(const Pattern& pattern, std::uint32_t i, Point2 shift) {
 class BestCandidateSampler final : public Sampler {
  public:
   BestCandidateSampler(Params& p, const Setup& setup)
-      : Sampler(setup.samplesPerPixel.value_or(
-            p.integer("pixelsamples", 4, 1, std::numeric_limits<int>::max(), "samples per pixel"))),
-        keys_(setup.seed),
+      : Sampler(sampleCount(p, setup, 4)),
+        keys_(samplerSeed(p, setup)),
         pattern_(p.describing() ? nullptr : std::make_shared<const Pattern>(makePattern())),
         count_(static_cast<std::uint32_t>(samplesPerPixel())),
         inverseCount_(1.F / static_cast<float>(count_)) {}

@@ -1,10 +1,7 @@
 // Halton's sequence: the radical inverse of the sample index in another prime base for every
 // dimension, its digits scrambled anew for every pixel.
 
-#include <array>
-
-#include "core/base/lowdiscrepancy.h"
-#include "core/plugin/plugin.h"
+#include "core/plugin/sampler_params.h"
 
 namespace pbrt {
 namespace {
@@ -46,9 +43,9 @@ constexpr std::array<Base, kBases> kBase = makeBases();
 class HaltonSampler final : public Sampler {
  public:
   HaltonSampler(Params& p, const Setup& setup)
-      : Sampler(setup.samplesPerPixel.value_or(p.integer(
-            "pixelsamples", 16, 1, std::numeric_limits<int>::max(), "samples per pixel"))),
-        keys_(setup.seed),
+      : Sampler(sampleCount(p, setup, 16)),
+        keys_(samplerSeed(p, setup)),
+        how_(randomization(p)),
         atCentre_(p.flag("samplepixelcenter", false, "every sample at its pixel's centre")) {
     for (std::size_t i = 0; i < kBases; ++i)
       digits_[i] = static_cast<std::uint8_t>(digits(kBase[i], samplesPerPixel()));
@@ -59,6 +56,8 @@ class HaltonSampler final : public Sampler {
   // Indices count modulo 2^31.
   void start(Point2i pixel, std::uint32_t index) override {
     keys_.start(pixel, index);
+    // What is not randomised is another part of the sequence in every pixel all the same.
+    if (how_ == Randomization::none) index += static_cast<std::uint32_t>(keys_.pixel());
     index_ = index & 0x7fffffffU;
     dimension_ = 0;
   }
@@ -112,9 +111,9 @@ class HaltonSampler final : public Sampler {
   // the variance depends on the joint distribution of pairs only, and two different digits go to
   // every pair of different digits with the same probability (Matousek 1998, "On the
   // L2-Discrepancy for Anchored Boxes"). What follows the digits of the largest index is random.
-  static float radicalInverse(std::size_t dimension, int digits, std::uint32_t index,
-                              std::uint64_t key) {
-    if (dimension == 0) return uniformFloat(reverseBits(nestedScramble(index, key)));
+  float radicalInverse(std::size_t dimension, int digits, std::uint32_t index,
+                       std::uint64_t key) const {
+    if (dimension == 0) return uniformFloat(randomize(reverseBits(index), how_, key));
     const Base& base = kBase[dimension];
     const std::uint32_t p = base.prime;
     std::int64_t reversed = 0;
@@ -122,20 +121,26 @@ class HaltonSampler final : public Sampler {
     for (std::uint32_t rest = index; digits > 0 || rest > 0; --digits) {
       const std::uint32_t next = base.quotient(rest);
       const std::uint32_t digit = rest - next * p;
-      const auto a = 1 + scaleBits(static_cast<std::uint32_t>(key), p - 1);
-      const auto b = scaleBits(static_cast<std::uint32_t>(key >> 32U), p);
-      const std::uint32_t affine = a * digit + b;
-      reversed = reversed * p + (affine - base.quotient(affine) * p);
+      std::uint32_t permuted = digit;
+      if (how_ != Randomization::none) {
+        const auto a = 1 + scaleBits(static_cast<std::uint32_t>(key), p - 1);
+        const auto b = scaleBits(static_cast<std::uint32_t>(key >> 32U), p);
+        const std::uint32_t affine = a * digit + b;
+        permuted = affine - base.quotient(affine) * p;
+        key = mixBits(how_ == Randomization::owen ? key + digit : key);
+      }
+      reversed = reversed * p + permuted;
       scale *= base.inverse;
-      key = mixBits(key + digit);
       rest = next;
     }
-    const double tail = uniformFloat(static_cast<std::uint32_t>(key));
+    const double tail =
+        how_ == Randomization::none ? 0 : uniformFloat(static_cast<std::uint32_t>(key));
     return std::min(static_cast<float>((static_cast<double>(reversed) + tail) * scale),
                     kOneMinusEpsilon);
   }
 
   SampleKeys keys_;
+  Randomization how_;
   bool atCentre_;
   std::array<std::uint8_t, kBases> digits_{};  // of samplesPerPixel() - 1, in each base
   std::uint32_t index_ = 0;

@@ -1,9 +1,7 @@
 // Sobol's (0,2)-sequence in every pair of dimensions: a pixel's samples lie one each in the boxes
 // of every grid of 2^a by 2^b equal boxes that has as many boxes as there are samples.
 
-#include "core/base/lowdiscrepancy.h"
-
-#include "core/plugin/plugin.h"
+#include "core/plugin/sampler_params.h"
 
 namespace pbrt {
 namespace {
@@ -12,7 +10,7 @@ class LowDiscrepancySampler final : public Sampler {
  public:
   LowDiscrepancySampler(Params& p, const Setup& setup)
       : Sampler(count(p, setup)),
-        keys_(setup.seed),
+        keys_(samplerSeed(p, setup)),
         resolution_(std::bit_width(static_cast<unsigned>(samplesPerPixel())) - 1) {
     p.integer("dimensions", 4, 0, std::numeric_limits<int>::max(),
               "of no effect: every dimension is as good as the first");

@@ -1,7 +1,6 @@
 // Independent uniform numbers.
 
-#include "core/base/lowdiscrepancy.h"
-#include "core/plugin/plugin.h"
+#include "core/plugin/sampler_params.h"
 
 namespace pbrt {
 namespace {
@@ -9,7 +8,7 @@ namespace {
 class RandomSampler final : public Sampler {
  public:
   RandomSampler(Params& p, const Setup& setup)
-      : Sampler(setup.samplesPerPixel.value_or(count(p))), keys_(setup.seed) {}
+      : Sampler(setup.samplesPerPixel.value_or(count(p))), keys_(samplerSeed(p, setup)) {}
 
   std::unique_ptr<Sampler> clone() const override { return std::make_unique<RandomSampler>(*this); }
   void start(Point2i pixel, std::uint32_t index) override { keys_.start(pixel, index); }

@@ -1,7 +1,6 @@
 // Samples that are shared out evenly over the cells of a grid, in every dimension.
 
-#include "core/base/lowdiscrepancy.h"
-#include "core/plugin/plugin.h"
+#include "core/plugin/sampler_params.h"
 
 namespace pbrt {
 namespace {
@@ -52,7 +51,7 @@ class StratifiedSampler final : public Sampler {
 
   StratifiedSampler(Point2i scene, Params& p, const Setup& setup)
       : Sampler(setup.samplesPerPixel.value_or(scene.x * scene.y)),
-        keys_(setup.seed),
+        keys_(samplerSeed(p, setup)),
         strata_(setup.samplesPerPixel ? squarest(static_cast<std::uint32_t>(*setup.samplesPerPixel))
                                       : scene),
         count_(static_cast<std::uint32_t>(samplesPerPixel())),

@@ -47,17 +47,20 @@ constexpr std::uint32_t scaleBits(std::uint32_t bits, std::uint32_t n) {
 
 // Element i of a random permutation of {0, ..., n - 1}; i < n. A bijection of the next power of
 // two is repeated until it lands below n (Kensler 2013, "Correlated Multi-Jittered Sampling",
-// section 5); a last rotation makes every element equally likely in every place.
+// section 5); a last rotation makes every element equally likely in every place. Products carry
+// bits up; that the step down differs from key to key makes up for how few bits there are: two
+// elements go to any two places, nearly equally likely.
 constexpr std::uint32_t permute(std::uint32_t i, std::uint32_t n, std::uint64_t key) {
   const int bits = std::bit_width(n - 1);
   const std::uint32_t mask = (1U << (bits & 31)) - 1U;
   const int shift = (bits + 1) / 2;
   do {
     std::uint64_t k = key;
-    for (int round = 0; round < 4; ++round) {
-      i = (i ^ static_cast<std::uint32_t>(k >> 32U)) * (static_cast<std::uint32_t>(k) | 1U) & mask;
-      i ^= i >> shift;
-      k = std::rotr(k, 13);
+    for (int round = 0; round < 3; ++round) {
+      i = (i ^ static_cast<std::uint32_t>(k >> 32U)) * (static_cast<std::uint32_t>(k >> 40U) | 1U);
+      i &= mask;
+      i ^= i >> shift ^ (i >> 1U & static_cast<std::uint32_t>(k >> 50U));
+      k = k * 0xd1342543de82ef95ULL + 0x9e3779b97f4a7c15ULL;
     }
   } while (i >= n);
   i += scaleBits(static_cast<std::uint32_t>(key * 0x9e3779b97f4a7c15ULL >> 32U), n);

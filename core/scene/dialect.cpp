@@ -253,7 +253,7 @@ const DialectDefaults& dialectDefaults(Dialect dialect) {
       {"box", "lowdiscrepancy", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "halton", "path", "perspective", "matte", {1280, 720}},
       // Its own are zsobol and volpath, which are called otherwise here; see translation.cpp.
-      {"gaussian", "lowdiscrepancy", "path", "perspective", "matte", {1280, 720}},
+      {"gaussian", "zsobol", "path", "perspective", "matte", {1280, 720}},
   }};
   return table.at(static_cast<std::size_t>(dialect) - 1);
 }

@@ -47,4 +47,13 @@ inline bool evenlyShared(std::span<const Point2> points, int columns, int rows) 
                      [&](std::size_t c) { return c * counts.size() == points.size(); });
 }
 
+// Whether the points are a net in base 2: evenly shared by every grid of 2^a by 2^b equal boxes
+// that has as many boxes as there are points.
+inline bool isNet(std::span<const Point2> points) {
+  const int n = static_cast<int>(points.size());
+  for (int columns = 1; columns <= n; columns *= 2)
+    if (!evenlyShared(points, columns, n / columns)) return false;
+  return true;
+}
+
 }  // namespace pbrt::test

@@ -47,6 +47,33 @@ TEST(HaltonSampler, PixelsAreScrambledDifferently) {
   EXPECT_GT(std::unique(orders.begin(), orders.end()) - orders.begin(), 40);
 }
 
+// Base 3: digits may stay, or be permuted, or be permuted by what comes before them.
+TEST(HaltonSampler, RandomizationIsWhatTheSceneSays) {
+  const auto ninths = [](const char* how, int pixel) {
+    std::array<int, 9> all{};
+    const auto s = sampler("halton", {test::text("randomization", how)}, 9);
+    const auto points = draw(*s, {pixel, 1}, 0, 0, 9);
+    for (std::size_t i = 0; i < 9; ++i) all[i] = static_cast<int>(points[i].y * 9);
+    return all;
+  };
+  bool differ = false, nested = false;
+  for (int pixel = 0; pixel < 10; ++pixel) {
+    const auto none = ninths("none", pixel), permuted = ninths("permutedigits", pixel),
+               owen = ninths("owen", pixel);
+    for (std::size_t i = 0; i < 9; ++i) {
+      // The sequence counts its first ternary digit up, from some element on.
+      EXPECT_EQ(none[i] / 3, (none[0] / 3 + static_cast<int>(i)) % 3);
+      // The second digits of samples 3 apart are those of the first three, permuted alike.
+      EXPECT_EQ(permuted[i] % 3, permuted[i - i % 3] % 3);
+      nested |= owen[i] % 3 != owen[i - i % 3] % 3;
+    }
+    differ |= none != ninths("none", pixel + 1);
+    EXPECT_EQ(owen, ninths("fastowen", pixel));
+  }
+  EXPECT_TRUE(differ);
+  EXPECT_TRUE(nested);
+}
+
 TEST(HaltonSampler, PixelCentreOnDemandLeavesTheOtherDimensionsAlone) {
   const auto s = sampler("halton");
   const auto centred = sampler("halton", {test::flag("samplepixelcenter", true)});

@@ -1,5 +1,7 @@
 // What every sampler must do, whatever its pattern.
 
+#include <set>
+
 #include "tests/chi_square.h"
 #include "tests/samplers/drawing.h"
 
@@ -112,8 +114,9 @@ TEST_P(SamplerLaws, DimensionsOfAPixelAreNotAligned) {
       }
       squares += sqr(sum / n);
     }
-    // Independent: variance 1 / 144 per sample.
-    EXPECT_LT(squares / trials * n * 144, 1.25) << other;
+    // Independent: variance 1 / 144 per sample. Of n strata in random orders: n / (n - 1) times
+    // that.
+    EXPECT_LT(squares / trials * n * 144, 1.18) << other;
   }
 }
 
@@ -156,6 +159,42 @@ TEST_P(SamplerLaws, HugeCountsCostNothing) {
     for (const Point2& p : set) ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
     s->get2D(std::span<Point2>());
   }
+}
+
+// Far out in every direction: pixels, samples, counts that are no power of two, seeds.
+TEST_P(SamplerLaws, NumbersAreBelowOneEverywhereAndDiffer) {
+  for (const int n : {1, 3, 16, 1000})
+    for (const Point2i resolution : {Point2i(1), Point2i(1, 16384), Point2i(16384)}) {
+      const auto s = test::make<Sampler>(GetParam(), {}, {~std::uint64_t{0}, n, resolution});
+      std::set<std::pair<float, float>> seen;
+      int drawn = 0;
+      for (const Point2i pixel : {Point2i(0), resolution - 1, Point2i(-3), Point2i(65535, 65536)})
+        for (const std::uint32_t index : {0U, 2U, 1U << 20U, (1U << 20U) + 1U, 3000000001U}) {
+          s->start(pixel, index);
+          for (int d = 0; d < 50; ++d, ++drawn) {
+            const Point2 p = d == 0 ? s->pixel2D() : s->get2D();
+            ASSERT_TRUE(p.x >= 0 && p.x < 1 && p.y >= 0 && p.y < 1);
+            seen.insert({p.x, p.y});
+          }
+        }
+      // A point of 2^48 is hardly drawn twice; of resolution 1 the last pixel is the first.
+      const int distinct = resolution == Point2i(1) ? drawn * 3 / 4 : drawn;
+      EXPECT_GE(static_cast<int>(seen.size()), distinct - 2) << n;
+    }
+}
+
+TEST_P(SamplerLaws, SeedsOfTheRenderAndOfTheSceneGiveOtherNumbers) {
+  const auto first = [&](const ParamList& list, std::uint64_t seed) {
+    return draw(*sampler(GetParam(), list, 16, seed), {3, 4}, 2, 0, 16);
+  };
+  const auto plain = first({}, 0);
+  EXPECT_EQ(plain, first({}, 0));
+  EXPECT_NE(plain, first({}, 1));
+  const ParamList five = {test::integers("seed", {5})};
+  EXPECT_EQ(first(five, 0), first(five, 0));
+  EXPECT_NE(first(five, 0), plain);
+  EXPECT_NE(first(five, 0), first(five, 1));
+  EXPECT_NE(first(five, 0), first({test::integers("seed", {-6})}, 0));
 }
 
 TEST_P(SamplerLaws, CountsBelowOneAreErrors) {

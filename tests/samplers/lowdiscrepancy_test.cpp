@@ -6,15 +6,8 @@ namespace {
 using test::draw;
 using test::evenlyShared;
 using test::integers;
+using test::isNet;
 using test::sampler;
-
-// All grids of equal boxes with as many boxes as there are points.
-bool isNet(std::span<const Point2> points) {
-  const int n = static_cast<int>(points.size());
-  for (int columns = 1; columns <= n; columns *= 2)
-    if (!evenlyShared(points, columns, n / columns)) return false;
-  return true;
-}
 
 TEST(LowDiscrepancySampler, EveryBeginningOfAPixelIsANet) {
   const auto s = sampler("lowdiscrepancy", {}, 256);

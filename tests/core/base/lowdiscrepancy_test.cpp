@@ -33,12 +33,11 @@ TEST(Permute, SendsAnElementEverywhereAlike) {
     }
 }
 
-// What the variance of an estimate depends on: where two elements go together. Few pairs of a power
-// of two are a little favoured; half as often again as others is the bound.
+// What the variance of an estimate depends on: where two elements go together.
 TEST(Permute, SendsPairsEverywhereNearlyAlike) {
   for (const std::uint32_t n : {3U, 4U, 8U, 9U, 16U, 25U}) {
     double squares = 0, pairs = 0;
-    constexpr double expected = 200;
+    constexpr double expected = 60;  // counts alone deviate by 0.13
     for (std::uint32_t i = 0; i < n; ++i)
       for (std::uint32_t j = i + 1; j < n; ++j) {
         std::vector<double> counts(std::size_t{n} * n);
@@ -52,7 +51,7 @@ TEST(Permute, SendsPairsEverywhereNearlyAlike) {
               ++pairs;
             }
       }
-    EXPECT_LT(std::sqrt(squares / pairs), 0.5) << n;
+    EXPECT_LT(std::sqrt(squares / pairs), 0.17) << n;
   }
 }
 
