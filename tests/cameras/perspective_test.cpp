@@ -35,6 +35,44 @@ TEST(PerspectiveCamera, CornersLieWhereTheDefinitionPutsThem) {
     }
 }
 
+// What filters take for the size of a pixel, from one of a fifth of a billionth of a turn to one
+// that fills half of the view.
+TEST(PerspectiveCamera, FootprintsAreTrueAtAnyFieldOfView) {
+  const Point2i resolution(640, 480);
+  for (const float fov : {1e-3F, 0.1F, 20.F, 90.F, 170.F, 179.9F}) {
+    const auto camera = perspective({number("fov", fov)}, resolution);
+    for (const Point2 film : {Point2(320.5F, 240.5F), Point2(10, 20), Point2(630, 240)}) {
+      const CameraRay r = camera->generate({film, {}, 0}, true);
+      EXPECT_EQ(r.weight, 1);
+      const LVec3 d = direction(fov, resolution, film);
+      const LVec3 x = direction(fov, resolution, film + Point2(1, 0)) - d;
+      const LVec3 y = direction(fov, resolution, film + Point2(0, 1)) - d;
+      EXPECT_LT(glm::distance(LVec3(r.ray.rxDirection) - LVec3(r.ray.d), x),
+                3e-4L * glm::length(x) + 1e-7L * std::abs(x.z))
+          << fov;
+      EXPECT_LT(glm::distance(LVec3(r.ray.ryDirection) - LVec3(r.ray.d), y),
+                3e-4L * glm::length(y) + 1e-7L * std::abs(y.z))
+          << fov;
+    }
+  }
+}
+
+// However the camera is turned, the error of a direction is that of rounding it: two units in the
+// last place of a float, or 1e-7 of a radian. A narrower pixel cannot be told from its neighbour.
+TEST(PerspectiveCamera, TurnedDirectionsAreAsExactAsFloats) {
+  const Point2i resolution(64, 48);
+  const Transform turned = Transform::rotate(50, {1, 2, -1});
+  for (const float fov : {1e-3F, 1.F, 90.F, 179.9F}) {
+    const auto camera = perspective({number("fov", fov)}, resolution, turned);
+    for (const Point2 film : {Point2(0, 0), Point2(31, 25), Point2(64, 3)}) {
+      const Ray ray = camera->generate({film, {}, 0}, false).ray;
+      const LVec3 d = direction(fov, resolution, film);
+      const DVec3 expected = turned.vector(DVec3(d));
+      EXPECT_LT(glm::distance(DVec3(ray.d), expected), 1.5e-7) << fov;
+    }
+  }
+}
+
 TEST(PerspectiveCamera, MovesWithItsSpace) {
   const Transform toRender = Transform::translate({1, 2, 3}) * Transform::rotate(90, {0, 1, 0});
   const auto camera = perspective({}, {100, 100}, toRender);

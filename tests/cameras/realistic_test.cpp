@@ -1,0 +1,390 @@
+// The camera with a lens of glass: its rays against a second tracer, its light against closed
+// forms.
+
+#include "core/base/rng.h"
+#include "tests/cameras/lenses.h"
+#include "tests/mean.h"
+#include "tests/scenes.h"
+
+namespace pbrt {
+namespace {
+
+using test::LensRow;
+using test::LensRows;
+using test::number;
+using test::text;
+
+constexpr double kSigmas = 4.5;
+
+// A camera whose scene unit is a millimetre.
+std::unique_ptr<Camera> camera(const std::string& lensFile, ParamList more = {},
+                               const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
+  more.push_back(text("lensfile", lensFile));
+  more.push_back(number("unit", 1));
+  return test::make<Camera>("realistic", more, setup);
+}
+std::unique_ptr<Camera> camera(const LensRows& rows, const ParamList& more = {},
+                               const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
+  const test::Folder folder;
+  folder.write("a.dat", test::textOf(rows));
+  return camera((folder.path() / "a.dat").string(), more, setup);
+}
+
+CameraSample randomSample(Rng& rng) {
+  return {Point2(90 * rng.uniform(), 60 * rng.uniform()), {rng.uniform(), rng.uniform()}, 0};
+}
+// Where on the film, in mm, seen from the scene's side: x right, y up.
+glm::dvec2 filmPlace(Point2 raster) {
+  const double mm = 43.27F / std::hypot(90.0, 60.0);
+  return {(45 - raster.x) * mm, (raster.y - 30) * mm};
+}
+
+// Of the double Gauss: its distance to the film when that is sharp `focus` mm ahead of it. Found
+// with rays near the axis from there, by where they cross it.
+long double filmDistance(const LensRows& rows, long double focus) {
+  long double distance = 0;
+  const long double length = test::lengthOf(rows);
+  for (int i = 0; i < 20; ++i) {
+    const test::LVec3 eye(0, 0, -(focus - length - distance));
+    test::LightRay ray{eye, glm::normalize(test::LVec3(1e-4L, 0, 0) - eye)};
+    EXPECT_TRUE(test::traceToFilm(rows, 1, ray));
+    distance = ray.o.z - ray.o.x / ray.d.x * ray.d.z - length;
+  }
+  return distance;
+}
+
+TEST(RealisticCamera, RaysGoBackTheWayTheyCame) {
+  const LensRows rows = test::readLens(test::kDoubleGauss);
+  ASSERT_EQ(rows.size(), 11U);
+  for (const float stop : {17.1F, 4.F, 0.01F})
+    for (const float focus : {300.F, 2000.F, 1e7F}) {
+      const auto c = camera(test::kDoubleGauss,
+                            {number("aperturediameter", stop), number("focusdistance", focus)});
+      const long double length = test::lengthOf(rows), behind = filmDistance(rows, focus);
+      Rng rng(1);
+      int came = 0;
+      for (int i = 0; i < 3000; ++i) {
+        const CameraSample s = randomSample(rng);
+        const CameraRay r = c->generate(s, false);
+        if (r.weight == 0) continue;
+        ++came;
+        // Camera space has the film at 0 and looks along +z.
+        test::LightRay back{test::LVec3(r.ray.o), -glm::normalize(test::LVec3(r.ray.d))};
+        back.o.z = length + behind - back.o.z;
+        back.d.z = -back.d.z;
+        // Rims may decide otherwise within the rounding of the ray.
+        ASSERT_TRUE(test::traceToFilm(rows, stop / 2 + 1e-4L, back));
+        back.o += (length + behind - back.o.z) / back.d.z * back.d;
+        const glm::dvec2 film = filmPlace(s.film);
+        EXPECT_NEAR(static_cast<double>(back.o.x), film.x, 1e-4);
+        EXPECT_NEAR(static_cast<double>(back.o.y), film.y, 1e-4);
+      }
+      EXPECT_GT(came, 1000) << stop << " " << focus;
+    }
+}
+
+// Irradiance of a film point under a sky of radiance 1, by the camera's own weights.
+test::Mean irradiance(const Camera& c, Point2 raster, int n, std::uint64_t seed) {
+  Rng rng(seed);
+  test::Mean mean;
+  for (int i = 0; i < n; ++i)
+    mean.add(c.generate({raster, {rng.uniform(), rng.uniform()}, 0}, false).weight);
+  return mean;
+}
+
+// If the stop lies in the plane of the last vertex, glass before it changes nothing: a film point
+// at r from the axis and d behind a disc of radius a gets
+//   pi / 2 (1 - (d^2 + r^2 - a^2) / sqrt((d^2 + r^2 + a^2)^2 - 4 r^2 a^2)).
+TEST(RealisticCamera, LightOfAThinLensIsThatOfADisc) {
+  for (const double diameter : {1e-3, 1.0, 25.0})
+    for (const double d : {20.0, 55.0, 400.0}) {
+      const auto c = camera(test::thinLens(50, diameter),
+                            {test::flag("simpleweighting", false),
+                             number("aperturediameter", static_cast<float>(diameter)),
+                             number("filmdistance", static_cast<float>(d))});
+      for (const Point2 raster : {Point2(45, 30), Point2(70, 30), Point2(1, 2)}) {
+        const test::Mean mean = irradiance(*c, raster, 40000, 2);
+        const double r2 = lengthSquared(DVec3(filmPlace(raster), 0)), a2 = sqr(diameter / 2);
+        // 1 - x / sqrt(y) without its cancellation, as y - x^2 = 4 a^2 d^2.
+        const double x = d * d + r2 - a2, y = sqr(d * d + r2 + a2) - 4 * r2 * a2;
+        const double expected =
+            std::numbers::pi / 2 * 4 * a2 * d * d / (std::sqrt(y) * (std::sqrt(y) + x));
+        EXPECT_NEAR(mean.mean(), expected, kSigmas * std::sqrt(mean.variance()) + 1e-5 * expected)
+            << diameter << " " << d << " " << raster.x;
+        EXPECT_LT(std::sqrt(mean.variance()), 0.01 * expected);
+      }
+    }
+}
+
+// No light is cut off by the box that rays are sampled in: its integral is that of rays to all of
+// the last surface, by the second tracer.
+TEST(RealisticCamera, AllOfThePupilIsSampled) {
+  const LensRows rows = test::readLens(test::kDoubleGauss);
+  const long double length = test::lengthOf(rows), behind = filmDistance(rows, 2000);
+  for (const float stop : {17.1F, 8.F})
+    for (const float x : {45.F, 50.F, 60.F, 75.F, 89.F}) {
+      const auto c = camera(test::kDoubleGauss,
+                            {test::flag("simpleweighting", false), number("focusdistance", 2000),
+                             number("aperturediameter", stop)});
+      const test::Mean own = irradiance(*c, {x, 30}, 100000, 3);
+      // Backwards through the stack means forwards through the one turned about.
+      LensRows turned;
+      for (std::size_t i = rows.size(); i-- > 0;)
+        turned.push_back({-rows[i].radius, i > 0 ? rows[i - 1].thickness : 0,
+                          i > 0 ? rows[i - 1].index : 1, rows[i].diameter});
+      Rng rng(4);
+      test::Mean all;
+      const double half = 15;
+      for (int i = 0; i < 200000; ++i) {
+        const test::LVec3 film(filmPlace({x, 30}).x, 0, -behind);
+        const test::LVec3 rear(half * (2 * rng.uniform() - 1), half * (2 * rng.uniform() - 1), 0);
+        test::LightRay ray{film, glm::normalize(rear - film)};
+        const auto cosine = static_cast<double>(ray.d.z);
+        const bool through = test::traceToFilm(turned, stop / 2, ray);
+        all.add(through ? sqr(sqr(cosine)) * sqr(2 * half) / static_cast<double>(behind * behind)
+                        : 0);
+      }
+      EXPECT_NEAR(own.mean(), all.mean(), kSigmas * std::sqrt(own.variance() + all.variance()))
+          << stop << " " << x;
+      EXPECT_LT(own.variance(), all.variance());
+    }
+  EXPECT_GT(length, 0);
+}
+
+// Half of the width in mm of what a film place sees of the plane `focus` ahead of the film.
+double spot(const Camera& c, double focus, Point2 raster) {
+  Rng rng(5);
+  glm::dvec2 lo(kInfinity), hi(-kInfinity);
+  for (int i = 0; i < 500; ++i) {
+    const CameraRay r = c.generate({raster, {rng.uniform(), rng.uniform()}, 0}, false);
+    if (r.weight == 0) continue;
+    const DPoint3 o(r.ray.o);
+    const DVec3 d(r.ray.d);
+    const glm::dvec2 p(o + (focus - o.z) / d.z * d);
+    lo = glm::min(lo, p);
+    hi = glm::max(hi, p);
+  }
+  return 0.5 * std::max(hi.x - lo.x, hi.y - lo.y);
+}
+
+TEST(RealisticCamera, APointAtTheFocusDistanceIsSharp) {
+  for (const float focus : {400.F, 1000.F, 5000.F, 1e5F}) {
+    const auto setting = [&](float stop) {
+      return ParamList{number("aperturediameter", stop), number("focusdistance", focus)};
+    };
+    // On the film, by the magnification of a lens of 50 mm.
+    const double onFilm = 50 / (focus - 50.0);
+    const auto open = camera(test::kDoubleGauss, setting(17.1F));
+    const auto narrow = camera(test::kDoubleGauss, setting(2.F));
+    EXPECT_LT(onFilm * spot(*open, focus, {45, 30}), 0.05) << focus;
+    EXPECT_LT(onFilm * spot(*narrow, focus, {45, 30}), 1e-4 + 2e-5) << focus;
+    // What is not in focus is not sharp: the law of similar triangles.
+    const double entrance = 25.0 / 17.1 * 2 / 2;  // radius of the stop, seen from the scene
+    EXPECT_NEAR(spot(*narrow, 2 * focus, {45, 30}) / entrance, 1, 0.15) << focus;
+  }
+}
+
+TEST(RealisticCamera, BrightnessOfAllApertureShapesIsTheSame) {
+  const test::Folder folder;
+  folder.write("half.pfm", std::string("Pf\n1 2\n-1\n") + std::string("\0\0\0\0\0\0\x80\x3f", 8));
+  std::vector<double> means;
+  for (const std::string& shape :
+       {std::string("gaussian"), std::string("square"), std::string("pentagon"),
+        std::string("star"), (folder.path() / "half.pfm").string()}) {
+    const auto c = camera(test::thinLens(50, 1),
+                          {text("aperture", shape), test::flag("simpleweighting", false),
+                           number("filmdistance", 100)});
+    const test::Mean mean = irradiance(*c, {45, 30}, 200000, 6);
+    const double circle = std::numbers::pi * sqr(0.5) / (sqr(0.5) + sqr(100));
+    // The picture's halves blend across a quarter of the disc; its corners are cut off.
+    const double expected = circle, error = kSigmas * std::sqrt(mean.variance());
+    if (shape.size() < 10)
+      EXPECT_NEAR(mean.mean(), expected, error) << shape;
+    else
+      EXPECT_GT(mean.mean(), 0.5 * expected) << shape;
+  }
+}
+
+// Seen from the film, the upper half of the picture lets light through: it leaves upwards.
+TEST(RealisticCamera, ApertureShapesAreUpright) {
+  const test::Folder folder;
+  // A PFM file begins with its lowest row.
+  folder.write("upper.pfm", std::string("Pf\n1 2\n-1\n") + std::string("\0\0\0\0\0\0\x80\x3f", 8));
+  const auto mean = [&](const std::string& shape) {
+    const auto c = camera(
+        test::thinLens(50, 10),
+        {text("aperture", shape), number("aperturediameter", 10), number("filmdistance", 100)});
+    Rng rng(7);
+    glm::dvec3 sum(0);
+    for (int i = 0; i < 20000; ++i) {
+      const CameraRay r = c->generate({{45, 30}, {rng.uniform(), rng.uniform()}, 0}, false);
+      sum += glm::dvec3(double{r.weight} * r.ray.o.x, double{r.weight} * r.ray.o.y, r.weight);
+    }
+    return glm::dvec2(sum) / sum.z;
+  };
+  EXPECT_GT(mean((folder.path() / "upper.pfm").string()).y, 1);
+  for (const std::string shape : {"square", "pentagon", "star", "gaussian"}) {
+    EXPECT_NEAR(mean(shape).x, 0, 0.1) << shape;
+    EXPECT_NEAR(mean(shape).y, 0, 0.1) << shape;
+  }
+}
+
+// By pbrt-v3's simple weighting a full circle in its square has pi / 4, whatever stop and film.
+TEST(RealisticCamera, SimpleBrightnessIsThatOfAFullCircle) {
+  for (const float stop : {17.1F, 1.F, 1e-3F}) {
+    const auto c = camera(test::kDoubleGauss,
+                          {number("aperturediameter", stop), number("focusdistance", 3000)});
+    const test::Mean mean = irradiance(*c, {45, 30}, 100000, 8);
+    const double cosines = stop > 10 ? 0.05 : 1e-3;
+    EXPECT_NEAR(mean.mean(), std::numbers::pi / 4, kSigmas * std::sqrt(mean.variance()) + cosines);
+  }
+}
+
+TEST(RealisticCamera, TimeAddsLight) {
+  const auto light = [](const ParamList& more) {
+    ParamList list = more;
+    list.push_back(number("shutterclose", 0.25F));
+    return irradiance(*camera(test::kDoubleGauss, list), {45, 30}, 1000, 9).mean();
+  };
+  const Param no = test::flag("simpleweighting", false);
+  const double untimed = light({no, test::flag("timeweighting", false)});
+  EXPECT_NEAR(light({no}), 0.25 * untimed, 1e-6 * untimed);
+}
+
+// Neighbours are those that the next pixel's rays have, which a tiny stop makes one.
+TEST(RealisticCamera, DifferentialsAreTheNeighboursRays) {
+  const Transform moved = Transform::translate({3, -2, 7}) * Transform::rotate(50, {1, 2, -1});
+  const auto c =
+      camera(test::kDoubleGauss, {number("aperturediameter", 1e-4F)}, {moved, {90, 60}, 43.27F});
+  Rng rng(10);
+  for (int i = 0; i < 300; ++i) {
+    CameraSample s = randomSample(rng);
+    s.film = glm::clamp(s.film, Point2(2), Point2(87, 57));
+    const CameraRay r = c->generate(s, true);
+    if (r.weight == 0) continue;
+    ASSERT_TRUE(r.ray.hasDifferentials);
+    for (int axis = 0; axis < 2; ++axis) {
+      CameraSample next = s;
+      next.film[axis] += 1;
+      const CameraRay n = c->generate(next, false);
+      if (n.weight == 0) continue;
+      EXPECT_LT(glm::distance(axis ? r.ray.ryDirection : r.ray.rxDirection, n.ray.d), 2e-3F);
+      EXPECT_GT(glm::distance(r.ray.d, n.ray.d), 5e-3F);
+    }
+  }
+}
+
+TEST(RealisticCamera, AllRaysAreFiniteAlsoBeyondThePicture) {
+  const auto c = camera(test::kDoubleGauss, {number("aperturediameter", 10)});
+  Rng rng(11);
+  int blocked = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Point2 film(1000 * rng.uniform() - 500, 1000 * rng.uniform() - 500);
+    const CameraRay r = c->generate({film, {rng.uniform(), rng.uniform()}, 0}, true);
+    EXPECT_GE(r.weight, 0);
+    EXPECT_LT(r.weight, 2);
+    EXPECT_NEAR(glm::length(r.ray.d), 1, 1e-6);
+    EXPECT_TRUE(std::isfinite(r.ray.o.x + r.ray.o.y + r.ray.o.z));
+    EXPECT_TRUE(std::isfinite(glm::dot(r.ray.rxDirection, r.ray.ryDirection)));
+    blocked += r.weight == 0;
+  }
+  EXPECT_GT(blocked, 1000);
+}
+
+// A scene in metres, with the lens's default unit, and film sizes from the Film statement.
+TEST(RealisticCamera, TheFilmsDiagonalDecidesWhatIsSeen) {
+  const auto slope = [](const std::string& diagonal) {
+    const auto scene =
+        test::buildText("Camera \"realistic\" \"string lensfile\" \"" + test::kDoubleGauss +
+                        "\" \"float aperturediameter\" 0.01 \"float focusdistance\" 100\n"
+                        "Film \"image\" \"integer xresolution\" 30 \"integer yresolution\" 20 " +
+                        diagonal + " Integrator \"whitted\" WorldBegin WorldEnd");
+    const Ray ray = scene->camera().generate({{30, 20}, {0.5F, 0.5F}, 0}, false).ray;
+    EXPECT_LT(glm::length(ray.o), 0.2F);  // 11 cm of lens and film
+    EXPECT_GT(ray.d.x, 0);
+    EXPECT_LT(ray.d.y, 0);
+    return std::hypot(ray.d.x, ray.d.y) / ray.d.z;
+  };
+  EXPECT_NEAR(slope("\"float diagonal\" 10"), 5 / 50.0, 1e-3);
+  EXPECT_NEAR(slope(""), 17.5 / 50, 0.01);
+}
+
+TEST(RealisticCamera, SaysWhatIsWrongWithALens) {
+  const test::Folder folder;
+  const auto message = [&](const std::string& lens, const ParamList& more = {}) {
+    folder.write("bad.dat", lens);
+    try {
+      camera((folder.path() / "bad.dat").string(), more);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const std::string good = test::textOf(test::thinLens(50, 1));
+  EXPECT_EQ(message(good), "no error");
+  EXPECT_EQ(message("\xEF\xBB\xBF# a comment\r\n" + good), "no error");
+  for (const auto& [lens, says] : std::vector<std::pair<std::string, std::string>>{
+           {"", "no lens"},
+           {"# nothing\n", "no lens"},
+           {good + "1 2 3", "rows of 4 numbers; 3 are left"},
+           {good + "1 2 3 x", "expected a number"},
+           {good + "nan 2 3 4", "expected a number"},
+           {good + "1e300 2 3 4", "expected a number"},
+           {"50 -1 1.5 4 0 0 1 1", "thickness"},
+           {"50 1 0.5 4 0 0 1 1", "index"},
+           {"50 1 1.5 0 0 0 1 1", "diameter"},
+           {"0 1 1 1 50 1 1.5 4", "must end in air"},
+           {"50 1 1.5 4 -50 1 1 4", "no stop"},
+           {good + "0 0 1 1", "more than one stop"},
+           {test::textOf(test::thinLens(-50, 1)), "gathers no light"},
+           {"0 1 1 1", "gathers no light"},
+       })
+    EXPECT_NE(message(lens).find(says), std::string::npos) << says << ": " << message(lens);
+  EXPECT_NE(message(good, {number("focusdistance", 150)}).find("too near"), std::string::npos);
+  EXPECT_NE(message(good, {number("filmdistance", -1)}).find("filmdistance"), std::string::npos);
+  // A bulge to the film that reaches farther than the film.
+  EXPECT_NE(message("0 20 1 1  0 10 1.5 30  -20 0 1 30", {number("filmdistance", 5)}), "no error");
+  for (const ParamList& bad : std::vector<ParamList>{
+           {number("aperturediameter", 0)},
+           {number("focusdistance", -1)},
+           {number("unit", 0)},
+           {number("filmdiag", 0)},
+           {text("aperture", "nosuchshape")},
+           {number("shutteropen", 2)},
+           {number("nosuch", 1)},
+       })
+    EXPECT_NE(message(good, bad), "no error") << bad.front().name;
+  EXPECT_THROW(test::make<Camera>("realistic", {}, {{}, {9, 9}}), Error);
+  EXPECT_THROW(camera("no-such-file.dat"), Error);
+}
+
+// Lenses of which nothing can be seen, or of which all must be searched for: an answer, and soon.
+TEST(RealisticCamera, StrangeLensesEndInAPictureOrAnError) {
+  Rng rng(12);
+  int made = 0;
+  for (int i = 0; i < 150; ++i) {
+    LensRows rows;
+    const int n = 1 + static_cast<int>(4 * rng.uniform());
+    for (int k = 0; k < n; ++k) {
+      const auto size = static_cast<long double>(std::exp(6 * rng.uniform() - 2));
+      rows.push_back({rng.uniform() < 0.5F ? size : -size, 5.0L * rng.uniform(),
+                      1 + 0.9L * rng.uniform(), size * (0.1L + 2 * rng.uniform())});
+    }
+    rows.push_back({rows[0].radius, 1, 1, 10});
+    rows.push_back({0, 0, 1, 1 + 10.0L * rng.uniform()});
+    try {
+      const auto c = camera(rows, {number("aperturediameter", 0.5F), number("filmdistance", 30)});
+      ++made;
+      for (int k = 0; k < 100; ++k) {
+        const CameraRay r = c->generate(randomSample(rng), true);
+        EXPECT_TRUE(r.weight >= 0 && std::isfinite(r.weight));
+        EXPECT_NEAR(glm::length(r.ray.d), 1, 1e-6);
+      }
+    } catch (const Error&) {
+    }
+  }
+  EXPECT_GT(made, 20);
+}
+
+}  // namespace
+}  // namespace pbrt
