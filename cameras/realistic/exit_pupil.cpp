@@ -24,37 +24,31 @@ double edge(double in, double out, const Inside& inside) {
   return in;
 }
 
-PupilBox merged(const PupilBox& a, const PupilBox& b) {
+// Between two film points, t of the way.
+PupilBox between(const PupilBox& a, const PupilBox& b, double t) {
   if (a.empty() || b.empty()) return a.empty() ? b : a;
-  return {std::min(a.x0, b.x0), std::max(a.x1, b.x1), std::max(a.y, b.y)};
-}
-
-PupilBox padded(PupilBox box) {
-  const double pad = kPad * (box.x1 - box.x0);
-  return {box.x0 - pad, box.x1 + pad, (1 + kPad) * box.y};
+  const double x0 = lerp(t, a.x0, b.x0), x1 = lerp(t, a.x1, b.x1), pad = kPad * (x1 - x0);
+  return {x0 - pad, x1 + pad, (1 + kPad) * std::max(a.y, b.y)};
 }
 
 }  // namespace
 
 ExitPupil::ExitPupil(const Lens& lens, double filmDistance, double farthest)
     : lens_(lens), distance_(filmDistance), perMm_(kRings / farthest) {
-  PupilBox inner = find(0);
-  axialArea_ = inner.area();
-  for (int i = 1; i <= kRings; ++i) {
-    const PupilBox outer = find(i / perMm_);
-    boxes_.push_back(padded(merged(inner, outer)));
-    inner = outer;
-  }
+  for (int i = 0; i <= kRings; ++i) boxes_.push_back(find(i / perMm_));
+  axialArea_ = boxes_.front().area();
 }
 
 PupilBox ExitPupil::at(double radius) const {
-  const auto ring = static_cast<std::size_t>(radius * perMm_);
-  return ring < boxes_.size() ? boxes_[ring] : possible(radius);
+  const double place = radius * perMm_;
+  if (!(place < kRings)) return possible(radius);
+  const auto ring = static_cast<std::size_t>(place);
+  return between(boxes_[ring], boxes_[ring + 1], place - static_cast<double>(ring));
 }
 
 bool ExitPupil::passes(double filmX, double x, double y) const {
   LensRay ray = filmRay(filmX, distance_, x, y);
-  return lens_.trace(ray) > 0;
+  return lens_.trace(ray).has_value();
 }
 
 // The surface's rim, seen from the film point on the plane of its vertex, together with the disc

@@ -36,7 +36,7 @@ class ExitPupil {
 
   const Lens& lens_;
   double distance_, perMm_;
-  std::vector<PupilBox> boxes_;  // of rings of equal width
+  std::vector<PupilBox> boxes_;  // of film points at equal steps
   double axialArea_ = 0;
 };
 

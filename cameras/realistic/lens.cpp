@@ -2,7 +2,7 @@
 
 namespace pbrt {
 
-Lens::Lens(std::span<const LensRow> rows, Aperture aperture) : aperture_(std::move(aperture)) {
+Lens::Lens(std::span<const LensRow> rows) {
   std::size_t stops = 0;
   double z = 0;
   for (std::size_t i = rows.size(); i-- > 0;) {
@@ -77,18 +77,16 @@ bool Lens::refract(const Surface& s, LensRay& ray) {
   return true;
 }
 
-double Lens::trace(LensRay& ray) const {
-  double through = 1;
+std::optional<glm::dvec2> Lens::trace(LensRay& ray) const {
+  glm::dvec2 atStop(0);
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
-    if (!refract(surfaces_[i], ray)) return 0;
+    if (!refract(surfaces_[i], ray)) return {};
     const glm::dvec2 p(ray.o);
-    if (i == stop_)
-      through = aperture_.through(p / stopRadius_);
-    else if (glm::dot(p, p) > sqr(surfaces_[i].rim))
-      through = 0;
-    if (through == 0) return 0;
+    if (glm::dot(p, p) > sqr(i == stop_ ? stopRadius_ : surfaces_[i].rim)) return {};
+    if (i == stop_) atStop = p / stopRadius_;
   }
-  return ray.d.z > 0 ? through : 0;
+  if (!(ray.d.z > 0)) return {};
+  return atStop;
 }
 
 bool Lens::traceUnbounded(LensRay& ray) const {

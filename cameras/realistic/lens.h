@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
-#include "cameras/realistic/aperture.h"
 #include "cameras/realistic/lens_file.h"
+#include "core/base/error.h"
 #include "core/base/ray.h"
 
 namespace pbrt {
@@ -29,7 +29,7 @@ class Lens {
  public:
   // Rows as readLensFile gives them. Throws Error unless just one of them is the stop: flat, with
   // the same medium on both sides.
-  Lens(std::span<const LensRow> rows, Aperture aperture);
+  explicit Lens(std::span<const LensRow> rows);
 
   double stopRadius() const { return stopRadius_; }
   void setStopRadius(double radius) { stopRadius_ = radius; }
@@ -42,9 +42,9 @@ class Lens {
   // empty if it is too near for this lens, or the lens does not gather light.
   std::optional<double> focused(double distance) const;
 
-  // Follows a ray from the film out to the scene; how much of it goes through the stop. 0: it
-  // meets a rim, misses a surface or is totally reflected.
-  double trace(LensRay& ray) const;
+  // Follows a ray from the film out to the scene, and tells where it goes through the stop, in
+  // radii of it. Empty: it meets a rim, misses a surface or is totally reflected.
+  std::optional<glm::dvec2> trace(LensRay& ray) const;
   // The same with rims and stop of any width; false: there is no way.
   bool traceUnbounded(LensRay& ray) const;
   // The x at which a ray meets the plane of the stop, rims and stop of any width.
@@ -63,7 +63,6 @@ class Lens {
   std::vector<Surface> surfaces_;  // as light from the film meets them
   std::size_t stop_ = 0;
   double stopRadius_ = 0;
-  Aperture aperture_;
   Paraxial paraxial_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "cameras/realistic/aperture.h"
 #include "cameras/realistic/exit_pupil.h"
 #include "core/plugin/plugin.h"
 
@@ -13,15 +14,14 @@ namespace {
 constexpr double kWidest = 1e6;  // mm
 
 Lens readLens(Params& p) {
-  Aperture aperture(p);
   const std::filesystem::path file =
       p.file("lensfile",
              "rows of radius, thickness, index and diameter in mm, from the scene to the film");
   p.require("lensfile");
   const std::vector<LensRow> stopAlone = {{0, 0, 1, 1}};
-  if (p.describing()) return {stopAlone, std::move(aperture)};
+  if (p.describing()) return Lens(stopAlone);
   try {
-    return {readLensFile(file), std::move(aperture)};
+    return Lens(readLensFile(file));
   } catch (const Error& error) {
     if (error.diagnostics().at(0).file.empty())
       p.fail("lensfile", error.diagnostics().at(0).message);
@@ -41,6 +41,7 @@ class RealisticCamera final : public Camera {
         simple_(p.flag("simpleweighting", true,
                        "brightness is that of a pinhole on the axis; else what film gets")),
         lens_(readLens(p)),
+        aperture_(p),
         distance_(filmDistance(p)),
         filmSize_(filmSize(p, setup)),
         origin_(setup.toRender),
@@ -69,7 +70,8 @@ class RealisticCamera final : public Camera {
     const DPoint3 rear(x * axis.x - y * axis.y, x * axis.y + y * axis.x, 0);
     LensRay light{film, glm::normalize(rear - film)};
     const double cosine = light.d.z;
-    const double through = box.empty() ? 0 : lens_.trace(light);
+    const auto atStop = box.empty() ? std::nullopt : lens_.trace(light);
+    const double through = atStop ? aperture_.through(*atStop) : 0;
     result.weight = static_cast<float>(through * sqr(sqr(cosine)) * box.area() * scale_);
     if (!(result.weight > 0)) {
       result.weight = 0;
@@ -96,11 +98,11 @@ class RealisticCamera final : public Camera {
         "filmdistance", "from the lens to the film; goes before focusdistance", "mm");
     const float stop = p.positive("aperturediameter", 1, "of the stop", "mm");
     if (p.describing()) return 1;
-    if (stop > 2 * lens_.stopRadius())
+    if (stop > 2 * lens_.stopRadius() * (1 + 1e-6))  // a float that says 17.1 is more
       p.warn("aperturediameter",
              fmt::format("is wider than the stop can be; {} mm is taken", 2 * lens_.stopRadius()));
     else
-      lens_.setStopRadius(0.5 * stop);
+      lens_.setStopRadius(std::min(0.5 * stop, lens_.stopRadius()));
     if (given && !(*given > 0 && *given < kWidest))
       p.fail("filmdistance", fmt::format("must be above 0 and below {} mm", kWidest));
     const std::string name = given ? "filmdistance" : "focusdistance";
@@ -151,6 +153,7 @@ class RealisticCamera final : public Camera {
   float open_, close_;
   bool simple_;
   Lens lens_;
+  Aperture aperture_;
   double distance_;  // from the film to the last vertex
   glm::dvec2 filmSize_;
   Transform origin_;  // camera space, whose origin is the film's middle, to render space

@@ -10,7 +10,7 @@ using test::estimate;
 
 const std::string kFloor =
     "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3]"
-    " \"point P\" [-1e4 0 -1e4  1e4 0 -1e4  1e4 0 1e4  -1e4 0 1e4]\n";
+    " \"point P\" [-100 0 -100  100 0 -100  100 0 100  -100 0 100]\n";
 // The floor's origin, from the side.
 const std::string kView = "3 0.5 0  0 0 0  0 1 0";
 

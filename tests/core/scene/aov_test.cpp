@@ -108,9 +108,9 @@ TEST(Aov, DetailsOfTheSurfaceAreThoseOfItsParameters) {
       "string aov" ["uv" "geometricnormal" "derivatives" "shape" "depth"]
     Sampler "stratified" "integer xsamples" 2 "integer ysamples" 2 PixelFilter "box"
     SurfaceIntegrator "whitted" WorldBegin
-    Translate 1e5 0 0
+    Translate 100 0 0
     Shape "sphere" "float radius" 0.1
-    Translate -1e5 0 0
+    Translate -100 0 0
     Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [0 0 0  4 0 0  4 2 0  0 2 0]
       "normal N" [0.6 0 0.8  0.6 0 0.8  0.6 0 0.8  0.6 0 0.8] "float uv" [0 0 1 0 1 1 0 1]
     ObjectBegin "o" Shape "disk" "float radius" 0.4 ObjectEnd
@@ -128,7 +128,7 @@ TEST(Aov, DetailsOfTheSurfaceAreThoseOfItsParameters) {
       EXPECT_EQ(at("dPdv.Y"), 0);
     } else if (at("shape") == 2) {
       ++mesh;
-      const double x = 0.5 * (i % 16 + 0.5) - 2, y = 5 - 0.5 * (i / 16 + 0.5);
+      const double x = 6 - 0.5 * (i % 16 + 0.5), y = 5 - 0.5 * (i / 16 + 0.5);
       EXPECT_NEAR(at("u"), x / 4, 0.05);
       EXPECT_NEAR(at("v"), y / 2, 0.1);
       EXPECT_NEAR(std::abs(at("Ng.Z")), 1, 1e-6);  // where N is the one for shading
