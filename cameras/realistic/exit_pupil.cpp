@@ -4,10 +4,18 @@ namespace pbrt {
 
 namespace {
 
-constexpr int kRings = 64;
+constexpr int kSteps = 64;
 constexpr int kScan = 256;     // steps across the last surface
-constexpr int kColumns = 24;   // across a pupil
-constexpr double kPad = 0.01;  // of the size, for what lies between columns and between rings
+constexpr double kPad = 0.03;  // of the size: what lies between columns and between film points
+
+// Of the columns, from 0 to 1.
+const auto kPlaces = [] {
+  std::array<double, PupilOutline::kColumns + 1> places{};
+  for (std::size_t i = 0; i < places.size(); ++i)
+    places[i] =
+        0.5 - 0.5 * std::cos(std::numbers::pi * static_cast<double>(i) / PupilOutline::kColumns);
+  return places;
+}();
 
 LensRay filmRay(double filmX, double distance, double x, double y) {
   const DPoint3 o(filmX, 0, -distance);
@@ -24,26 +32,53 @@ double edge(double in, double out, const Inside& inside) {
   return in;
 }
 
-// Between two film points, t of the way.
-PupilBox between(const PupilBox& a, const PupilBox& b, double t) {
-  if (a.empty() || b.empty()) return a.empty() ? b : a;
-  const double x0 = lerp(t, a.x0, b.x0), x1 = lerp(t, a.x1, b.x1), pad = kPad * (x1 - x0);
-  return {x0 - pad, x1 + pad, (1 + kPad) * std::max(a.y, b.y)};
-}
-
 }  // namespace
 
-ExitPupil::ExitPupil(const Lens& lens, double filmDistance, double farthest)
-    : lens_(lens), distance_(filmDistance), perMm_(kRings / farthest) {
-  for (int i = 0; i <= kRings; ++i) boxes_.push_back(find(i / perMm_));
-  axialArea_ = boxes_.front().area();
+double PupilOutline::x(int column) const {
+  return x0_ + (x1_ - x0_) * kPlaces[static_cast<std::size_t>(column)];
 }
 
-PupilBox ExitPupil::at(double radius) const {
+PupilOutline PupilOutline::between(const PupilOutline& a, const PupilOutline& b, double t) {
+  if (a.empty() != b.empty()) return a.empty() ? b : a;
+  PupilOutline outline(lerp(t, a.x0_, b.x0_), lerp(t, a.x1_, b.x1_));
+  const double pad = 0.5 * kPad * outline.width();
+  outline.x0_ -= pad;
+  outline.x1_ += pad;
+  for (std::size_t i = 0; i <= kColumns; ++i)
+    outline.y_[i] = (1 + kPad) * lerp(t, a.y_[i], b.y_[i]);
+  return outline;
+}
+
+double PupilOutline::area() const {
+  double sum = 0;
+  for (int i = 0; i < kColumns; ++i) sum += area(i);
+  return sum;
+}
+
+// A piece between heights b and e holds, up to the share t of its width w, the area
+// w (2 b t + (e - b) t^2).
+glm::dvec2 PupilOutline::sample(Point2 u) const {
+  double left = u.x * area();
+  int i = 0;
+  for (; i + 1 < kColumns && left >= area(i); ++i) left -= area(i);
+  const double b = y(i), e = y(i + 1), width = x(i + 1) - x(i);
+  const double q = std::min(left / width, b + e);
+  const double root = b + std::sqrt(std::max(0.0, b * b + (e - b) * q));
+  const double t = root > 0 ? q / root : 0;
+  return {x(i) + t * width, (2 * double{u.y} - 1) * lerp(t, b, e)};
+}
+
+ExitPupil::ExitPupil(const Lens& lens, double filmDistance, double farthest)
+    : lens_(lens), distance_(filmDistance), perMm_(kSteps / farthest) {
+  for (int i = 0; i <= kSteps; ++i) outlines_.push_back(find(i / perMm_));
+}
+
+PupilOutline ExitPupil::at(double radius) const {
   const double place = radius * perMm_;
-  if (!(place < kRings)) return possible(radius);
-  const auto ring = static_cast<std::size_t>(place);
-  return between(boxes_[ring], boxes_[ring + 1], place - static_cast<double>(ring));
+  if (!(place < kSteps)) return possible(radius);
+  const auto step = static_cast<std::size_t>(place);
+  return PupilOutline::between(outlines_[step], outlines_[step + 1],
+                               place - static_cast<double>(step));
 }
 
 bool ExitPupil::passes(double filmX, double x, double y) const {
@@ -53,57 +88,56 @@ bool ExitPupil::passes(double filmX, double x, double y) const {
 
 // The surface's rim, seen from the film point on the plane of its vertex, together with the disc
 // that the rim encloses there if the surface is flat.
-PupilBox ExitPupil::possible(double filmX) const {
+PupilOutline ExitPupil::possible(double filmX) const {
   const double shrink = distance_ / (distance_ + lens_.rearSag());
   const double rim = lens_.rearRadius(), middle = filmX * (1 - shrink);
-  return {std::min(-rim, middle - shrink * rim), std::max(rim, middle + shrink * rim),
-          std::max(1.0, shrink) * rim};
+  PupilOutline outline(std::min(-rim, middle - shrink * rim), std::max(rim, middle + shrink * rim));
+  for (int i = 0; i <= PupilOutline::kColumns; ++i) outline.y(i) = std::max(1.0, shrink) * rim;
+  return outline;
 }
 
 // A place of the plane from which a ray of the meridian reaches the stop's middle, for stops too
 // small to be met by chance.
-std::optional<double> ExitPupil::seed(double filmX, const PupilBox& within) const {
+std::optional<double> ExitPupil::seed(double filmX, const PupilOutline& within) const {
   const auto height = [&](double x) { return lens_.stopHeight(filmRay(filmX, distance_, x, 0)); };
+  const double left = within.x(0), step = within.width() / kScan;
   std::optional<double> before;
-  double xBefore = 0;
   for (int i = 0; i <= kScan; ++i) {
-    const double x = within.x0 + (within.x1 - within.x0) * i / kScan;
+    const double x = left + step * i;
     const std::optional<double> h = height(x);
     if (h && before && (*h > 0) != (*before > 0)) {
       const bool positive = *before > 0;
-      const double found = edge(xBefore, x, [&](double middle) {
+      const double found = edge(x - step, x, [&](double middle) {
         return (height(middle).value_or(*before) > 0) == positive;
       });
       if (passes(filmX, found, 0)) return found;
     }
     before = h;
-    xBefore = x;
   }
   return {};
 }
 
 // The pupil is where discs seen through the lens overlap: convex, near enough, so its ends in x lie
 // on the meridian, and each column is one piece about it.
-PupilBox ExitPupil::find(double filmX) const {
-  const PupilBox within = possible(filmX);
-  const double step = (within.x1 - within.x0) / kScan;
+PupilOutline ExitPupil::find(double filmX) const {
+  const PupilOutline within = possible(filmX);
+  const double left = within.x(0), step = within.width() / kScan;
   std::optional<double> first, last;
   for (int i = 0; i <= kScan; ++i)
-    if (const double x = within.x0 + step * i; passes(filmX, x, 0)) {
+    if (const double x = left + step * i; passes(filmX, x, 0)) {
       if (!first) first = x;
       last = x;
     }
   if (!first) first = last = seed(filmX, within);
   if (!first) return {};
   const auto onMeridian = [&](double x) { return passes(filmX, x, 0); };
-  PupilBox box{edge(*first, *first - step, onMeridian), edge(*last, *last + step, onMeridian), 0};
-  for (int i = 0; i <= kColumns; ++i) {
-    const double x = box.x0 + (box.x1 - box.x0) * i / kColumns;
-    if (onMeridian(x))
-      box.y =
-          std::max(box.y, edge(0, 1.01 * within.y, [&](double y) { return passes(filmX, x, y); }));
+  PupilOutline outline(edge(*first, *first - step, onMeridian),
+                       edge(*last, *last + step, onMeridian));
+  for (int i = 0; i <= PupilOutline::kColumns; ++i) {
+    const double x = outline.x(i);
+    outline.y(i) = edge(0, 1.01 * within.y(0), [&](double y) { return passes(filmX, x, y); });
   }
-  return box;
+  return outline;
 }
 
 }  // namespace pbrt

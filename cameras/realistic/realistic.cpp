@@ -51,9 +51,9 @@ class RealisticCamera final : public Camera {
         p.flag("timeweighting", true, "without simpleweighting: twice the time, twice the light");
     if (!(open_ <= close_)) p.fail("shutterclose", "must not be before shutteropen");
     if (p.describing()) return;
-    if (pupil_.axialArea() == 0)
+    if (pupil_.axialSquare() == 0)
       p.fail("lensfile", "is a lens that lets no light through to the film's middle");
-    scale_ = simple_ ? 1 / pupil_.axialArea() : (timed ? close_ - open_ : 1) / sqr(distance_);
+    scale_ = simple_ ? 1 / pupil_.axialSquare() : (timed ? close_ - open_ : 1) / sqr(distance_);
   }
 
   // Light on the film is the integral over the last vertex's plane of L cos^4 / distance^2.
@@ -63,16 +63,15 @@ class RealisticCamera final : public Camera {
     ray.time = lerp(sample.time, open_, close_);
     const DPoint3 film = onFilm(glm::dvec2(sample.film));
     const double radius = glm::length(glm::dvec2(film));
-    const PupilBox box = pupil_.at(radius);
+    const PupilOutline pupil = pupil_.at(radius);
     const glm::dvec2 axis = radius > 0 ? glm::dvec2(film) / radius : glm::dvec2(1, 0);
-    const double x = box.x0 + (box.x1 - box.x0) * sample.lens.x,
-                 y = (2 * sample.lens.y - 1) * box.y;
-    const DPoint3 rear(x * axis.x - y * axis.y, x * axis.y + y * axis.x, 0);
+    const glm::dvec2 p = pupil.empty() ? glm::dvec2(0) : pupil.sample(sample.lens);
+    const DPoint3 rear(p.x * axis.x - p.y * axis.y, p.x * axis.y + p.y * axis.x, 0);
     LensRay light{film, glm::normalize(rear - film)};
     const double cosine = light.d.z;
-    const auto atStop = box.empty() ? std::nullopt : lens_.trace(light);
+    const auto atStop = pupil.empty() ? std::nullopt : lens_.trace(light);
     const double through = atStop ? aperture_.through(*atStop) : 0;
-    result.weight = static_cast<float>(through * sqr(sqr(cosine)) * box.area() * scale_);
+    result.weight = static_cast<float>(through * sqr(sqr(cosine)) * pupil.area() * scale_);
     if (!(result.weight > 0)) {
       result.weight = 0;
       ray.tMax = 0;  // nothing is seen

@@ -117,11 +117,11 @@ TEST(RealisticCamera, LightOfAThinLensIsThatOfADisc) {
     }
 }
 
-// No light is cut off by the box that rays are sampled in: its integral is that of rays to all of
-// the last surface, by the second tracer.
+// No light is cut off by the outline that rays are sampled in: its integral is that of rays to all
+// of the last surface, by the second tracer.
 TEST(RealisticCamera, AllOfThePupilIsSampled) {
   const LensRows rows = test::readLens(test::kDoubleGauss);
-  const long double length = test::lengthOf(rows), behind = filmDistance(rows, 2000);
+  const long double behind = filmDistance(rows, 2000);
   for (const float stop : {17.1F, 8.F})
     for (const float x : {45.F, 50.F, 60.F, 75.F, 89.F}) {
       const auto c = camera(test::kDoubleGauss,
@@ -147,9 +147,9 @@ TEST(RealisticCamera, AllOfThePupilIsSampled) {
       }
       EXPECT_NEAR(own.mean(), all.mean(), kSigmas * std::sqrt(own.variance() + all.variance()))
           << stop << " " << x;
-      EXPECT_LT(own.variance(), all.variance());
+      // Nor are many rays wasted: weights are nearly all alike, where others are mostly 0.
+      EXPECT_LT(50000 * own.variance(), 0.15 * sqr(own.mean())) << stop << " " << x;
     }
-  EXPECT_GT(length, 0);
 }
 
 // Half of the width in mm of what a film place sees of the plane `focus` ahead of the film.
