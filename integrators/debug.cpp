@@ -55,8 +55,7 @@ class Debug final : public SamplingIntegrator {
   static Quantity quantity(Params& p, const std::string& colour, std::string_view fallback) {
     const std::string name =
         p.choice(colour, kNames, fallback,
-                 "u v; nx ny nz: normal; snx sny snz: shading normal; depth: distance; dpdu dpdv: "
-                 "lengths; front: 1 on the outside; shape primitive: numbers; hit one zero");
+                 "of the surface: n normal, sn shading normal, dpdu dpdv lengths, front 1 outside");
     return static_cast<Quantity>(std::ranges::find(kNames, name) - kNames.begin());
   }
 
