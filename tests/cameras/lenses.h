@@ -2,10 +2,12 @@
 // Lenses, and a second opinion on what they do to light: rays in long double, by vectors and
 // spheres' centres instead of the formulas of the camera.
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "core/base/rng.h"
 #include "tests/command.h"
 #include "tests/support.h"
 
@@ -86,4 +88,24 @@ inline long double lengthOf(const LensRows& rows) {
   return z;
 }
 
+// A camera whose scene unit is a millimetre, with a picture of 90 by 60 pixels.
+inline std::unique_ptr<Camera> lensCamera(const std::string& lensFile, ParamList more = {},
+                                          const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
+  more.push_back(text("lensfile", lensFile));
+  more.push_back(number("unit", 1));
+  if (std::ranges::find(more, "focusdistance", &Param::name) == more.end())
+    more.push_back(number("focusdistance", 3000));
+  return make<Camera>("realistic", more, setup);
+}
+inline std::unique_ptr<Camera> lensCamera(const LensRows& rows, const ParamList& more = {},
+                                          const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
+  const Folder folder;
+  folder.write("a.dat", textOf(rows));
+  return lensCamera((folder.path() / "a.dat").string(), more, setup);
+}
+
+// Within that picture.
+inline CameraSample randomSample(Rng& rng) {
+  return {Point2(90 * rng.uniform(), 60 * rng.uniform()), {rng.uniform(), rng.uniform()}, 0};
+}
 }  // namespace pbrt::test

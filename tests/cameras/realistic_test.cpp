@@ -15,25 +15,6 @@ using test::text;
 
 constexpr double kSigmas = 4.5;
 
-// A camera whose scene unit is a millimetre.
-std::unique_ptr<Camera> camera(const std::string& lensFile, ParamList more = {},
-                               const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
-  more.push_back(text("lensfile", lensFile));
-  more.push_back(number("unit", 1));
-  if (std::ranges::find(more, "focusdistance", &Param::name) == more.end())
-    more.push_back(number("focusdistance", 3000));
-  return test::make<Camera>("realistic", more, setup);
-}
-std::unique_ptr<Camera> camera(const LensRows& rows, const ParamList& more = {},
-                               const Camera::Setup& setup = {{}, {90, 60}, 43.27F}) {
-  const test::Folder folder;
-  folder.write("a.dat", test::textOf(rows));
-  return camera((folder.path() / "a.dat").string(), more, setup);
-}
-
-CameraSample randomSample(Rng& rng) {
-  return {Point2(90 * rng.uniform(), 60 * rng.uniform()), {rng.uniform(), rng.uniform()}, 0};
-}
 // Where on the film, in mm, seen from the scene's side: x right, y up.
 glm::dvec2 filmPlace(Point2 raster) {
   const double mm = 43.27F / std::hypot(90.0, 60.0);
@@ -59,13 +40,13 @@ TEST(RealisticCamera, RaysGoBackTheWayTheyCame) {
   ASSERT_EQ(rows.size(), 11U);
   for (const float stop : {17.1F, 4.F, 0.01F})
     for (const float focus : {300.F, 2000.F, 1e7F}) {
-      const auto c = camera(test::kDoubleGauss,
-                            {number("aperturediameter", stop), number("focusdistance", focus)});
+      const auto c = test::lensCamera(
+          test::kDoubleGauss, {number("aperturediameter", stop), number("focusdistance", focus)});
       const long double length = test::lengthOf(rows), behind = filmDistance(rows, focus);
       Rng rng(1);
       int came = 0;
       for (int i = 0; i < 3000; ++i) {
-        const CameraSample s = randomSample(rng);
+        const CameraSample s = test::randomSample(rng);
         const CameraRay r = c->generate(s, false);
         if (r.weight == 0) continue;
         ++came;
@@ -99,10 +80,10 @@ test::Mean irradiance(const Camera& c, Point2 raster, int n, std::uint64_t seed)
 TEST(RealisticCamera, LightOfAThinLensIsThatOfADisc) {
   for (const double diameter : {1e-3, 1.0, 25.0})
     for (const double d : {20.0, 55.0, 400.0}) {
-      const auto c = camera(test::thinLens(50, diameter),
-                            {test::flag("simpleweighting", false),
-                             number("aperturediameter", static_cast<float>(diameter)),
-                             number("filmdistance", static_cast<float>(d))});
+      const auto c = test::lensCamera(test::thinLens(50, diameter),
+                                      {test::flag("simpleweighting", false),
+                                       number("aperturediameter", static_cast<float>(diameter)),
+                                       number("filmdistance", static_cast<float>(d))});
       for (const Point2 raster : {Point2(45, 30), Point2(70, 30), Point2(1, 2)}) {
         const test::Mean mean = irradiance(*c, raster, 40000, 2);
         const double r2 = lengthSquared(DVec3(filmPlace(raster), 0)), a2 = sqr(diameter / 2);
@@ -124,9 +105,9 @@ TEST(RealisticCamera, AllOfThePupilIsSampled) {
   const long double behind = filmDistance(rows, 2000);
   for (const float stop : {17.1F, 8.F})
     for (const float x : {45.F, 50.F, 60.F, 75.F, 89.F}) {
-      const auto c = camera(test::kDoubleGauss,
-                            {test::flag("simpleweighting", false), number("focusdistance", 2000),
-                             number("aperturediameter", stop)});
+      const auto c = test::lensCamera(
+          test::kDoubleGauss, {test::flag("simpleweighting", false), number("focusdistance", 2000),
+                               number("aperturediameter", stop)});
       const test::Mean own = irradiance(*c, {x, 30}, 50000, 3);
       // Backwards through the stack means forwards through the one turned about.
       LensRows turned;
@@ -175,14 +156,14 @@ TEST(RealisticCamera, APointAtTheFocusDistanceIsSharp) {
     };
     // On the film, by the magnification of a lens of 50 mm.
     const double onFilm = 50 / (focus - 50.0);
-    const auto open = camera(test::kDoubleGauss, setting(17.1F));
-    const auto narrow = camera(test::kDoubleGauss, setting(2.F));
+    const auto open = test::lensCamera(test::kDoubleGauss, setting(17.1F));
+    const auto narrow = test::lensCamera(test::kDoubleGauss, setting(2.F));
     EXPECT_LT(onFilm * spot(*open, focus, {45, 30}), 0.05) << focus;
     EXPECT_LT(onFilm * spot(*narrow, focus, {45, 30}), 2.5e-4) << focus;
     // What is not in focus is blurred, by similar triangles: from the focus on the cone of rays
     // grows evenly, and far away it is as wide as the stop looks from the scene: the front half of
     // this lens magnifies it 1.4506 times.
-    const auto pinhole = camera(test::kDoubleGauss, setting(0.5F));
+    const auto pinhole = test::lensCamera(test::kDoubleGauss, setting(0.5F));
     const double blur = spot(*pinhole, 2 * focus, {45, 30});
     EXPECT_NEAR(spot(*pinhole, 4 * focus, {45, 30}) / blur, 3, 0.1) << focus;
     EXPECT_TRUE(focus < 1e4 || std::abs(blur - 0.25 * 1.4506) < 0.03) << blur;
@@ -196,9 +177,9 @@ TEST(RealisticCamera, BrightnessOfAllApertureShapesIsTheSame) {
   for (const std::string& shape :
        {std::string("gaussian"), std::string("square"), std::string("pentagon"),
         std::string("star"), (folder.path() / "half.pfm").string()}) {
-    const auto c = camera(test::thinLens(50, 1),
-                          {text("aperture", shape), test::flag("simpleweighting", false),
-                           number("filmdistance", 100)});
+    const auto c = test::lensCamera(test::thinLens(50, 1),
+                                    {text("aperture", shape), test::flag("simpleweighting", false),
+                                     number("filmdistance", 100)});
     const test::Mean mean = irradiance(*c, {45, 30}, 100000, 6);
     const double circle = std::numbers::pi * sqr(0.5) / (sqr(0.5) + sqr(100));
     // The picture's halves blend across a quarter of the disc; its corners are cut off.
@@ -216,7 +197,7 @@ TEST(RealisticCamera, ApertureShapesAreUpright) {
   // A PFM file begins with its lowest row.
   folder.write("upper.pfm", std::string("Pf\n1 2\n-1\n") + std::string("\0\0\0\0\0\0\x80\x3f", 8));
   const auto mean = [&](const std::string& shape) {
-    const auto c = camera(
+    const auto c = test::lensCamera(
         test::thinLens(50, 10),
         {text("aperture", shape), number("aperturediameter", 10), number("filmdistance", 100)});
     Rng rng(7);
@@ -237,8 +218,8 @@ TEST(RealisticCamera, ApertureShapesAreUpright) {
 // By pbrt-v3's simple weighting a full circle in its square has pi / 4, whatever stop and film.
 TEST(RealisticCamera, SimpleBrightnessIsThatOfAFullCircle) {
   for (const float stop : {17.1F, 1.F, 1e-3F}) {
-    const auto c = camera(test::kDoubleGauss,
-                          {number("aperturediameter", stop), number("focusdistance", 3000)});
+    const auto c = test::lensCamera(
+        test::kDoubleGauss, {number("aperturediameter", stop), number("focusdistance", 3000)});
     const test::Mean mean = irradiance(*c, {45, 30}, 50000, 8);
     const double cosines = stop > 10 ? 0.05 : 1e-3;
     EXPECT_NEAR(mean.mean(), std::numbers::pi / 4, kSigmas * std::sqrt(mean.variance()) + cosines);
@@ -249,7 +230,7 @@ TEST(RealisticCamera, TimeAddsLight) {
   const auto light = [](const ParamList& more) {
     ParamList list = more;
     list.push_back(number("shutterclose", 0.25F));
-    return irradiance(*camera(test::kDoubleGauss, list), {45, 30}, 1000, 9).mean();
+    return irradiance(*test::lensCamera(test::kDoubleGauss, list), {45, 30}, 1000, 9).mean();
   };
   const Param no = test::flag("simpleweighting", false);
   const double untimed = light({no, test::flag("timeweighting", false)});
@@ -259,11 +240,11 @@ TEST(RealisticCamera, TimeAddsLight) {
 // Neighbours are those that the next pixel's rays have, which a tiny stop makes one.
 TEST(RealisticCamera, DifferentialsAreTheNeighboursRays) {
   const Transform moved = Transform::translate({3, -2, 7}) * Transform::rotate(50, {1, 2, -1});
-  const auto c =
-      camera(test::kDoubleGauss, {number("aperturediameter", 1e-4F)}, {moved, {90, 60}, 43.27F});
+  const auto c = test::lensCamera(test::kDoubleGauss, {number("aperturediameter", 1e-4F)},
+                                  {moved, {90, 60}, 43.27F});
   Rng rng(10);
   for (int i = 0; i < 300; ++i) {
-    CameraSample s = randomSample(rng);
+    CameraSample s = test::randomSample(rng);
     s.film = glm::clamp(s.film, Point2(2), Point2(87, 57));
     const CameraRay r = c->generate(s, true);
     if (r.weight == 0) continue;
@@ -277,122 +258,6 @@ TEST(RealisticCamera, DifferentialsAreTheNeighboursRays) {
       EXPECT_GT(glm::distance(r.ray.d, n.ray.d), 5e-3F);
     }
   }
-}
-
-TEST(RealisticCamera, AllRaysAreFiniteAlsoBeyondThePicture) {
-  const auto c = camera(test::kDoubleGauss, {number("aperturediameter", 10)});
-  Rng rng(11);
-  int blocked = 0;
-  for (int i = 0; i < 20000; ++i) {
-    const Point2 film(1000 * rng.uniform() - 500, 1000 * rng.uniform() - 500);
-    const CameraRay r = c->generate({film, {rng.uniform(), rng.uniform()}, 0}, true);
-    EXPECT_GE(r.weight, 0);
-    EXPECT_LT(r.weight, 10);
-    EXPECT_NEAR(glm::length(r.ray.d), 1, 1e-6);
-    EXPECT_TRUE(std::isfinite(r.ray.o.x + r.ray.o.y + r.ray.o.z));
-    EXPECT_TRUE(std::isfinite(glm::dot(r.ray.rxDirection, r.ray.ryDirection)));
-    blocked += r.weight == 0;
-  }
-  EXPECT_GT(blocked, 1000);
-}
-
-// A scene in metres, with the lens's default unit, and film sizes from the Film statement.
-TEST(RealisticCamera, TheFilmsDiagonalDecidesWhatIsSeen) {
-  const auto slope = [](const std::string& diagonal) {
-    const auto scene =
-        test::buildText("Camera \"realistic\" \"string lensfile\" \"" + test::kDoubleGauss +
-                        "\" \"float aperturediameter\" 0.01 \"float focusdistance\" 100\n"
-                        "Film \"image\" \"integer xresolution\" 30 \"integer yresolution\" 20 " +
-                        diagonal + " Integrator \"whitted\" WorldBegin WorldEnd");
-    const Ray ray = scene->camera().generate({{28.5F, 19}, {0.5F, 0.5F}, 0}, false).ray;
-    EXPECT_LT(glm::length(ray.o), 0.2F);  // 11 cm of lens and film
-    EXPECT_GT(ray.d.x, 0);
-    EXPECT_LT(ray.d.y, 0);
-    return std::hypot(ray.d.x, ray.d.y) / ray.d.z;
-  };
-  EXPECT_NEAR(slope("\"float diagonal\" 10"), 0.9 * 5 / 50.36, 1e-3);
-  EXPECT_NEAR(slope(""), 0.9 * 17.5 / 50.36, 0.01);
-}
-
-TEST(RealisticCamera, SaysWhatIsWrongWithALens) {
-  const test::Folder folder;
-  const auto message = [&](const std::string& lens, const ParamList& more = {}) {
-    folder.write("bad.dat", lens);
-    try {
-      camera((folder.path() / "bad.dat").string(), more);
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-    return std::string("no error");
-  };
-  const std::string good = test::textOf(test::thinLens(50, 1));
-  EXPECT_EQ(message(good), "no error");
-  EXPECT_EQ(message("\xEF\xBB\xBF# a comment\r\n" + good), "no error");
-  for (const auto& [lens, says] : std::vector<std::pair<std::string, std::string>>{
-           {"", "no lens"},
-           {"# nothing\n", "no lens"},
-           {good + "1 2 3", "rows of 4 numbers; 3 are left"},
-           {good + "1 2 3 x", "expected a number"},
-           {good + "nan 2 3 4", "expected a number"},
-           {good + "1e300 2 3 4", "expected a number"},
-           {"50 -1 1.5 4 0 0 1 1", "thickness"},
-           {"50 1 0.5 4 0 0 1 1", "index"},
-           {"50 1 1.5 0 0 0 1 1", "diameter"},
-           {"0 1 1 1 50 1 1.5 4", "must end in air"},
-           {"50 1 1.5 4 -50 1 1 4", "no stop"},
-           {good + "0 0 1 1", "more than one stop"},
-           {test::textOf(test::thinLens(-50, 1)), "gathers no light"},
-           {"0 1 1 1", "gathers no light"},
-       })
-    EXPECT_NE(message(lens).find(says), std::string::npos) << says << ": " << message(lens);
-  EXPECT_NE(message(good, {number("focusdistance", 150)}).find("too near"), std::string::npos);
-  EXPECT_NE(message(good, {number("filmdistance", -1)}).find("filmdistance"), std::string::npos);
-  // The rim of a hollow reaches farther than the film.
-  EXPECT_NE(message("0 20 1 1  15 10 1.5 30  20 0 1 30", {number("filmdistance", 5)})
-                .find("puts the film into the lens"),
-            std::string::npos);
-  for (const ParamList& bad : std::vector<ParamList>{
-           {number("aperturediameter", 0)},
-           {number("focusdistance", -1)},
-           {number("filmdiag", 0)},
-           {text("aperture", "nosuchshape")},
-           {number("shutteropen", 2)},
-           {number("nosuch", 1)},
-       })
-    EXPECT_NE(message(good, bad), "no error") << bad.front().name;
-  EXPECT_THROW(test::make<Camera>("realistic", {}, {{}, {9, 9}}), Error);
-  EXPECT_THROW(camera("no-such-file.dat"), Error);
-  EXPECT_THROW(test::make<Camera>("realistic",
-                                  {text("lensfile", test::kDoubleGauss), number("unit", 0)}, {}),
-               Error);
-}
-
-// Lenses of which nothing can be seen, or of which all must be searched for: an answer, and soon.
-TEST(RealisticCamera, StrangeLensesEndInAPictureOrAnError) {
-  Rng rng(12);
-  int made = 0;
-  for (int i = 0; i < 100; ++i) {
-    LensRows rows;
-    const int n = 1 + static_cast<int>(4 * rng.uniform());
-    for (int k = 0; k < n; ++k) {
-      const auto size = static_cast<long double>(std::exp(6 * rng.uniform() - 2));
-      rows.push_back({rng.uniform() < 0.5F ? size : -size, 5.0L * rng.uniform(),
-                      1 + 0.9L * rng.uniform(), size * (0.1L + 2 * rng.uniform())});
-    }
-    rows.push_back({rows[0].radius, 1, 1, 10});
-    rows.push_back({0, 0, 1, 1 + 10.0L * rng.uniform()});
-    try {
-      const auto c = camera(rows, {number("aperturediameter", 0.5F), number("filmdistance", 30)});
-      ++made;
-      for (int k = 0; k < 100; ++k) {
-        const CameraRay r = c->generate(randomSample(rng), true);
-        EXPECT_TRUE(r.weight >= 0 && std::isfinite(r.weight));
-        EXPECT_NEAR(glm::length(r.ray.d), 1, 1e-6);
-      }
-    } catch (const Error&) {
-    }
-  }
-  EXPECT_GT(made, 10);
 }
 
 }  // namespace
