@@ -32,8 +32,8 @@ class PerspectiveCamera final : public ProjectiveCamera {
     if (differentials) {
       ray.hasDifferentials = true;
       ray.rxOrigin = ray.ryOrigin = ray.o;
-      ray.rxDirection = glm::normalize(d + right_);
-      ray.ryDirection = glm::normalize(d + down_);
+      ray.rxDirection = unit(d + right_);
+      ray.ryDirection = unit(d + down_);
     }
     return result;
   }

@@ -19,7 +19,7 @@ struct Options {
   int samplesPerPixel = 0;
   std::string samples;
   std::vector<std::string> aovs;
-  std::uint8_t aovSet = 0;
+  AovSet aovSet = 0;
   Goal goal;  // see goalOf()
   bool quiet = false;
   bool stats = false;

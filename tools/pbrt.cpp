@@ -60,7 +60,7 @@ void printStats(const Scene& scene, const PluginLoader& loader, const RenderCont
 // The picture after so many samples per pixel and seconds.
 void writePictures(const Options& o, Scene& scene, const Goal& goal, std::uint32_t samples,
                    double seconds, const std::vector<std::string>& outputs) {
-  const std::uint8_t notStored = o.build.aovs & ~o.aovSet;  // wanted only for the goal
+  const AovSet notStored = o.build.aovs & ~o.aovSet;  // wanted only for the goal
   Image image = scene.film().image(~notStored);
   image.attributes = scene.attributes();
   image.attributes["firstSample"] = static_cast<int>(goal.firstSample);

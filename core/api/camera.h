@@ -25,7 +25,8 @@ class Camera {
     // Camera space (looks along +z, +y up) to render space; of a camera that moves, at the start
     // of its motion: the scene moves its rays.
     Transform toRender;
-    Point2i resolution{};  // of the whole picture, before cropping
+    Point2i resolution{};     // of the whole picture, before cropping
+    float filmDiagonal = 35;  // in mm, for lenses that have a size
   };
 
   Camera() = default;

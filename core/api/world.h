@@ -21,6 +21,8 @@ struct Hit {
 
   static constexpr std::uint32_t kNone = ~0U;
   bool found() const { return geometry != kNone; }
+  // The shape or, of an instance, the whole of it: numbered in the order of the scene.
+  std::uint32_t placed() const { return instance == kNone ? geometry : instance; }
 };
 
 class World {

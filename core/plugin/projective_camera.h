@@ -1,10 +1,15 @@
 #pragma once
 // What cameras with a flat film and a thin lens have in common.
 
+#include <fmt/format.h>
+
 #include "core/base/warp.h"
 #include "core/plugin/params.h"
 
 namespace pbrt {
+
+// Screens and lenses are not wider, nor ratios of lengths greater, so that floats hold all rays.
+inline constexpr float kWidest = 1e18F;
 
 // The rectangle of the screen (a plane across the camera's z axis; x right, y up) that the film
 // shows, and its resolution: maps film places, in pixels from the upper left corner, to the screen.
@@ -12,13 +17,17 @@ class ScreenWindow {
  public:
   // Parameters frameaspectratio and screenwindow. The shorter side is [-1, 1] by default.
   ScreenWindow(Params& p, Point2i resolution) : resolution_(resolution) {
-    const float aspect = p.positive("frameaspectratio", float(resolution.x) / float(resolution.y),
-                                    "width by height of the screen; from the resolution if absent");
+    const float aspect =
+        p.inRange("frameaspectratio", float(resolution.x) / float(resolution.y), 1 / kWidest,
+                  kWidest, "width by height of the screen; from the resolution if absent");
     hi_ = aspect > 1 ? glm::dvec2(aspect, 1) : glm::dvec2(1, 1 / double{aspect});
     lo_ = -hi_;
     const auto window = p.numbers("screenwindow", "the screen's x0 x1 y0 y1");
     if (window.empty()) return;
     if (window.size() != 4) p.fail("screenwindow", "needs 4 numbers: x0 x1 y0 y1");
+    for (const float side : window)
+      if (!(std::abs(side) <= kWidest))
+        p.fail("screenwindow", fmt::format("lies beyond {}: nothing is seen there", kWidest));
     lo_ = {window[0], window[2]};
     hi_ = {window[1], window[3]};
     if (!(lo_.x < hi_.x && lo_.y < hi_.y))
@@ -58,11 +67,13 @@ class ProjectiveCamera : public Camera {
         z_(setup.toRender.vector({0, 0, 1})),
         open_(p.number("shutteropen", 0, "when the shutter opens")),
         close_(p.number("shutterclose", 1, "when the shutter closes")),
-        lensRadius_(p.nonNegative("lensradius", 0, "0: all is sharp", "scene units")),
+        lensRadius_(p.inRange("lensradius", 0, 0, kWidest, "0: all is sharp", "scene units")),
         focus_(
             p.positive("focaldistance", 1e6F, "what lies this far ahead is sharp", "scene units")),
         near_(p.nonNegative("hither", 0, "what lies nearer ahead is not seen", "scene units")),
         far_(p.positive("yon", kInfinity, "what lies farther ahead is not seen", "scene units")) {
+    if (!(lensRadius_ <= kWidest * focus_))
+      p.fail("focaldistance", "is too short for so wide a lens");
     if (!(open_ <= close_)) p.fail("shutterclose", "must not be before shutteropen");
     if (!(near_ < far_)) p.fail("yon", "must be above hither");
   }
@@ -85,10 +96,12 @@ class ProjectiveCamera : public Camera {
   }
   float inverseFocus() const { return inverseFocus_; }
 
+  // Of any length: in float its square might be beyond all numbers.
+  static Vec3 unit(const Vec3& d) { return Vec3(glm::normalize(DVec3(d))); }
   // Completes a ray along d, whose camera-space z is 1: the direction gets unit length.
   void finish(Ray& ray, const Vec3& d, float time) const {
-    const float length = std::sqrt(lengthSquared(d));
-    ray.d = d / length;
+    const auto length = static_cast<float>(glm::length(DVec3(d)));
+    ray.d = unit(d);
     ray.tMin = near_ * length;
     ray.tMax = far_ * length;
     ray.time = lerp(time, open_, close_);

@@ -6,8 +6,9 @@ namespace pbrt {
 
 namespace {
 
-constexpr std::array<std::string_view, 6> kNames = {"variance", "albedo", "normal",
-                                                    "position", "depth",  "samples"};
+constexpr std::array<std::string_view, 10> kNames = {
+    "variance", "albedo", "normal",          "position",    "depth",
+    "samples",  "uv",     "geometricnormal", "derivatives", "shape"};
 
 // The cell of a pixel that counts from the first of all.
 template <class T>
@@ -43,28 +44,40 @@ std::span<const std::string_view> aovNames() {
   return kNames;
 }
 
-std::optional<std::uint8_t> aovByName(std::string_view name) {
+std::optional<AovSet> aovByName(std::string_view name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) return {};
-  return static_cast<std::uint8_t>(1U << (found - kNames.begin()));
+  return static_cast<AovSet>(1U << (found - kNames.begin()));
 }
 
-AovSums::AovSums(std::uint8_t stored, Point2i size, int tile, const DPoint3& origin)
+AovSums::AovSums(AovSet stored, Point2i size, int tile, const DPoint3& origin)
     : stored_(stored), origin_(origin) {
   if (stores(kSampleCount)) counts_ = {size.x, size.y, tile};
-  if (stores(kOfSurface)) surfaces_ = {size.x, size.y, tile};
+  if (stores(kOfSurface & ~kOfDetail)) surfaces_ = {size.x, size.y, tile};
+  if (stores(kOfDetail)) details_ = {size.x, size.y, tile};
 }
 
 void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {
-  Surfaces& s = surfaces_.row(tile, pixel.y)[pixel.x];
-  s.albedo += surface.albedo;
-  s.n += surface.n;
-  s.p += surface.p;
-  s.depth += surface.depth;
-  ++s.count;
+  if (surfaces_.blocks() > 0) {
+    Surfaces& s = surfaces_.row(tile, pixel.y)[pixel.x];
+    s.albedo += surface.albedo;
+    s.n += surface.n;
+    s.p += surface.p;
+    s.depth += surface.depth;
+    ++s.count;
+  }
+  if (details_.blocks() > 0) {
+    Details& d = details_.row(tile, pixel.y)[pixel.x];
+    d.uv += surface.uv;
+    d.n += surface.trueN;
+    d.dpdu += surface.dpdu;
+    d.dpdv += surface.dpdv;
+    if (d.count == 0) d.shape = surface.shape;
+    ++d.count;
+  }
 }
 
-void AovSums::appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window) const {
+void AovSums::appendTo(Image& image, AovSet wanted, const Bounds2i& window) const {
   wanted &= stored_;
   const auto mean = [](double sum, double count) { return count > 0 ? sum / count : 0; };
   if (wanted & kSampleCount)
@@ -89,6 +102,26 @@ void AovSums::appendTo(Image& image, std::uint8_t wanted, const Bounds2i& window
       const Surfaces& s = cell(surfaces_, pixel);
       return mean(s.depth, s.count);
     });
+  // `sum` is the member to take the mean of.
+  const auto appendMean = [&](std::string_view layer, auto Details::*sum) {
+    append(image, layer, "XYZ", window, [&](Point2i pixel, int c) {
+      const Details& d = cell(details_, pixel);
+      return mean((d.*sum)[c], d.count);
+    });
+  };
+  if (wanted & kUv)
+    for (int c = 0; c < 2; ++c)
+      append(image, c == 0 ? "u" : "v", window, [&](Point2i pixel) {
+        const Details& d = cell(details_, pixel);
+        return mean(d.uv[c], d.count);
+      });
+  if (wanted & kTrueNormal) appendMean("Ng", &Details::n);
+  if (wanted & kDerivatives) {
+    appendMean("dPdu", &Details::dpdu);
+    appendMean("dPdv", &Details::dpdv);
+  }
+  if (wanted & kShape)
+    append(image, "shape", window, [&](Point2i pixel) { return cell(details_, pixel).shape; });
 }
 
 }  // namespace pbrt

@@ -45,7 +45,7 @@ Bounds2i SceneBuilder::cropBounds(Params& film, Point2i resolution) const {
 }
 
 // The film's name in its generation decides only what is stored beside the picture.
-std::uint8_t SceneBuilder::filmAovs(const Directive& film) const {
+AovSet SceneBuilder::filmAovs(const Directive& film) const {
   const std::vector<std::string> names = {"image", "rgb", "gbuffer", "spectral"};
   const std::string& name = film.words.at(0);
   if (name == "gbuffer") return kAlbedo | kNormal | kPosition | kDepth | kVariance;
@@ -91,7 +91,6 @@ Film::Settings SceneBuilder::filmSettings(Params& film) const {
                "of pbrt-v1; without effect");
   film.flag("display", false, "of pbrt-v2; without effect");
   film.flag("savefp16", true, "of pbrt-v4; without effect: pictures are stored in 32 bits");
-  film.positive("diagonal", 35, "of the sensor, for cameras with a lens system", "mm");
   if (film.text("sensor", "cie1931", "of pbrt-v4") != "cie1931")
     film.warn("sensor", "is read as \"cie1931\"");
   if (film.nonNegative("whitebalance", 0, "of pbrt-v4, a temperature", "K") > 0)
@@ -139,6 +138,8 @@ void SceneBuilder::readFilm() {
                              1, kMost)};
   const Bounds2i crop = cropBounds(film, resolution);
   scene_->outputFile_ = film.text("filename", "pbrt.exr", "where the picture goes");
+  filmDiagonal_ =
+      film.positive("diagonal", 35, "of the sensor, for cameras with a lens system", "mm");
   Film::Settings settings = filmSettings(film);
   factory_.attempt([&] { settings.aovs |= filmAovs(statement); });
   factory_.attempt([&] { film.refuseUnread(); });
@@ -168,7 +169,7 @@ void SceneBuilder::makeSampler(Point2i resolution) {
 void SceneBuilder::makeCamera(Point2i resolution) {
   const TransformPair renderFromCamera = transforms_.base() * cameraFromWorld_.inverse();
   scene_->ownCamera_ = makeOption<Camera>(camera_, DirectiveKind::Camera, defaults_.camera,
-                                          {renderFromCamera.start, resolution});
+                                          {renderFromCamera.start, resolution, filmDiagonal_});
   if (renderFromCamera.moves())
     factory_.attempt([&] {
       try {

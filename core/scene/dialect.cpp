@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numbers>
 
 #include "core/parse/parameter.h"
 
@@ -167,12 +168,18 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV4, light, "projection", {number("fov", 90)}},
       {kV1, camera, "perspective", {number("hither", 1e-3F)}},
       {kV1, camera, "orthographic", {number("hither", 1e-3F)}},
+      {kV1, camera, "environment", {number("hither", 1e-3F)}},
       {kV1, integrator, "whitted", {count("maxdepth", 6)}},
       {kV1, integrator, "directlighting", {count("maxdepth", 6)}},
       {kV1 | kV2, sampler, "lowdiscrepancy", {count("pixelsamples", 4)}},
       {kV1 | kV2, integrator, "path", {count("maxdepth", 6)}},
       {kV1, sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
       {kV4, camera, "spherical", {text("mapping", "equalarea")}},
+      {kV2, camera, "realistic", {number("unit", 1), flag("simpleweighting", false)}},
+      {kV4, camera, "realistic", {flag("simpleweighting", false), flag("timeweighting", false)}},
+      {kV2, integrator, "ambientocclusion", {count("nsamples", 2048), flag("weighted", false)}},
+      {kV3, integrator, "ambientocclusion", {number("scale", std::numbers::pi_v<float>)}},
+      {kV4, integrator, "ambientocclusion", {count("nsamples", 1)}},
       {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;

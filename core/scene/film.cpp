@@ -144,7 +144,7 @@ void Film::appendVariance(Image& image) const {
     }
 }
 
-Image Film::image(std::uint8_t aovs) const {
+Image Film::image(AovSet aovs) const {
   Image image;
   image.window = crop_;
   image.resolution = resolution_;

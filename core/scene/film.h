@@ -25,7 +25,7 @@ class Film {
   struct Settings {
     float scale = 1;              // of all pixel values
     float brightest = kInfinity;  // samples of more luminance are darkened to it, then scaled
-    std::uint8_t aovs = 0;        // what to store beside the picture
+    AovSet aovs = 0;              // what to store beside the picture
     DPoint3 origin{0};            // where render space's origin is in the world
   };
 
@@ -43,7 +43,7 @@ class Film {
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)).
   void add(int tile, Point2 film, const Spectrum& L, float alpha);
   // Whether any of these is stored beside the picture.
-  bool stores(std::uint8_t aovs) const { return aovs_.stores(aovs); }
+  bool stores(AovSet aovs) const { return aovs_.stores(aovs); }
   // Adds what a sample saw first, if the film stores any of kOfSurface.
   void add(int tile, Point2i pixel, const FirstSurface& surface);
 
@@ -55,7 +55,7 @@ class Film {
   // The picture so far: channels R, G, B, A over the crop, premultiplied by alpha as EXR has it,
   // then those of `aovs` that are stored. Pixels without samples are zero; negative values, which
   // only filters with negative lobes make, are raised to zero.
-  Image image(std::uint8_t aovs = ~std::uint8_t{0}) const;
+  Image image(AovSet aovs = kEveryAov) const;
 
  private:
   // Of weighted samples.

@@ -90,8 +90,9 @@ struct TileJob {
           control.badSamples.fetch_add(1, std::memory_order_relaxed);
         }
       }
-      // As in pbrt-v1: a sky that shines is no hole in the picture.
-      film.add(tile, worker.samples[i].film, L, hit.found() || !isBlack(L) ? 1 : 0);
+      // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
+      const bool hole = camera.weight > 0 && !hit.found() && isBlack(L);
+      film.add(tile, worker.samples[i].film, L, hole ? 0 : 1);
       if (hit.found() && film.stores(kOfSurface)) {
         const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
         film.add(tile, pixel, firstSurface(camera.ray, hit, worker.scratch));
@@ -107,7 +108,8 @@ struct TileJob {
       const Bsdf bsdf = world.bsdf(at, scratch);
       if (film.stores(kAlbedo)) albedo = bsdf.rho(at.wo);
     }
-    return {albedo, at.ns, at.p, glm::distance(ray.o, at.p)};
+    return {albedo,  at.ns,           at.p, glm::distance(ray.o, at.p), at.uv, at.n, at.dpdu,
+            at.dpdv, hit.placed() + 1};
   }
 };
 

@@ -97,7 +97,7 @@ class SceneBuilder {
   void readFilm();
   void makeSampler(Point2i resolution);
   void makeCamera(Point2i resolution);
-  std::uint8_t filmAovs(const Directive& film) const;
+  AovSet filmAovs(const Directive& film) const;
   float exposureTime() const;
   Film::Settings filmSettings(Params& film) const;
   Bounds2i cropBounds(Params& film, Point2i resolution) const;
@@ -143,6 +143,7 @@ class SceneBuilder {
   std::optional<std::uint64_t> seed_;  // of Option "integer seed"
   ColorSpace colorSpace_ = ColorSpace::srgb;
   TransformPair cameraFromWorld_;  // as of the Camera statement
+  float filmDiagonal_ = 35;        // mm
 };
 
 }  // namespace pbrt

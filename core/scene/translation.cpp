@@ -14,6 +14,9 @@ using enum PluginKind;
 
 constexpr std::string_view kBump = "displacement bumpmap";
 constexpr std::string_view kRadii = "xradius xwidth, yradius ywidth";
+constexpr std::string_view kLens =
+    "specfile lensfile, aperture_diameter aperturediameter, film_distance filmdistance, "
+    "hither -, yon -";
 constexpr std::string_view kLights = "lightsampler lightsamplestrategy, regularize -";
 constexpr std::string_view kNoise = "the noise of the picture is not the same";
 constexpr std::string_view kPaths = "paths find the same light, at another cost";
@@ -21,7 +24,7 @@ constexpr std::string_view kPaths = "paths find the same light, at another cost"
 constexpr std::array kTable = {
     // name, generations, here, parameters, what differs
     Translation{camera, "spherical", "v4", "environment", "", ""},
-    Translation{camera, "realistic", "v3 v4", "", "", ""},
+    Translation{camera, "realistic", "v2 v3 v4", "realistic", kLens, ""},
 
     Translation{filter, "box", "v4", "box", kRadii, ""},
     Translation{filter, "gaussian", "v4", "gaussian", kRadii, ""},
@@ -43,8 +46,8 @@ constexpr std::array kTable = {
     Translation{integrator, "exphotonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "irradiancecache", "v1 v2", "path", "* -", kPaths},
     Translation{integrator, "igi", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
-    Translation{integrator, "ambientocclusion", "v2 v3 v4", "", "", ""},
-    Translation{integrator, "debug", "v1", "", "", ""},
+    Translation{integrator, "ambientocclusion", "v2 v3 v4", "ambientocclusion",
+                "maxdist maxdistance", ""},
     Translation{integrator, "dipolesubsurface", "v2", "", "", ""},
     Translation{integrator, "diffuseprt", "v2", "", "", ""},
     Translation{integrator, "glossyprt", "v2", "", "", ""},

@@ -1,7 +1,7 @@
-// What every camera with a flat film must do.
+// What every camera must do, and every one with a flat film.
 
 #include "core/base/rng.h"
-#include "tests/support.h"
+#include "tests/cameras/lenses.h"
 
 namespace pbrt {
 namespace {
@@ -32,11 +32,19 @@ class CameraLaws : public testing::TestWithParam<std::string> {
   }
 };
 
+// What a camera cannot do without.
+ParamList required(const std::string& name) {
+  if (name == "realistic") return {test::text("lensfile", test::kDoubleGauss)};
+  return {};
+}
+std::vector<std::string> allCameras() {
+  return test::loader().available(PluginKind::camera);
+}
 // Those of which a matrix can say what they show.
 std::vector<std::string> flatCameras() {
-  std::vector<std::string> names = test::loader().available(PluginKind::camera);
+  std::vector<std::string> names = allCameras();
   std::erase_if(names, [](const std::string& name) {
-    return !test::make<Camera>(name, {}, {{}, {2, 2}})->screenFromCamera();
+    return !test::make<Camera>(name, required(name), {{}, {2, 2}})->screenFromCamera();
   });
   return names;
 }
@@ -57,6 +65,47 @@ DPoint3 filmPlace(const Camera& camera, const Place& place, const DPoint3& p) {
   const DPoint3 inCamera = place.toRender.inverse().point(p);
   const DPoint3 ndc = Transform(screen.value()).project(inCamera);
   return {ndc.x * place.resolution.x, ndc.y * place.resolution.y, inCamera.z};
+}
+
+class AnyCamera : public testing::TestWithParam<std::string> {
+ protected:
+  std::unique_ptr<Camera> make(ParamList list, const Place& place) const {
+    for (const Param& p : required(GetParam())) list.push_back(p);
+    return test::make<Camera>(GetParam(), list, {place.toRender, place.resolution});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, AnyCamera, testing::ValuesIn(allCameras()),
+                         [](const auto& test) { return test.param; });
+
+TEST_P(AnyCamera, RaysAreFiniteAndTheSameEachTime) {
+  for (const Place& place : kPlaces) {
+    const auto camera = make({}, place);
+    Rng rng(6);
+    for (int i = 0; i < 500; ++i) {
+      CameraSample s = randomSample(rng, place.resolution);
+      if (i % 3 == 0) s.film += Point2(2.5F, -2.5F);  // a filter reaches beyond the picture
+      const CameraRay r = camera->generate(s, true), plain = camera->generate(s, false);
+      EXPECT_EQ(r.ray.o, plain.ray.o);
+      EXPECT_EQ(r.ray.d, plain.ray.d);
+      EXPECT_EQ(r.weight, plain.weight);
+      EXPECT_TRUE(r.weight >= 0 && r.weight < 10) << r.weight;
+      EXPECT_NEAR(glm::length(DVec3(r.ray.d)), 1, 3e-7);
+      EXPECT_TRUE(std::isfinite(lengthSquared(r.ray.o)));
+      EXPECT_TRUE(r.ray.hasDifferentials);
+      EXPECT_FALSE(plain.ray.hasDifferentials);
+      for (const Vec3& v : {r.ray.rxOrigin, r.ray.ryOrigin, r.ray.rxDirection, r.ray.ryDirection})
+        EXPECT_TRUE(std::isfinite(lengthSquared(v)));
+    }
+  }
+}
+
+TEST_P(AnyCamera, ShutterGivesTheTime) {
+  const auto camera = make({number("shutteropen", 2), number("shutterclose", 6)}, kPlaces[0]);
+  EXPECT_EQ(camera->generate({{1, 1}, {}, 0}, false).ray.time, 2);
+  EXPECT_EQ(camera->generate({{1, 1}, {}, 0.25F}, false).ray.time, 3);
+  EXPECT_LE(camera->generate({{1, 1}, {}, kOneMinusEpsilon}, false).ray.time, 6);
+  EXPECT_NO_THROW(make({number("shutteropen", 0), number("shutterclose", 0)}, kPlaces[0]));
+  EXPECT_THROW(make({number("shutteropen", 1), number("shutterclose", 0)}, kPlaces[0]), Error);
 }
 
 TEST_P(CameraLaws, RaysShowWhatTheMatrixSays) {
@@ -139,6 +188,38 @@ TEST_P(CameraLaws, AllOfTheLensSeesOnePointOfTheFocalPlane) {
   }
 }
 
+// Lenses and distances of any size: rays start on the lens and cross the focal plane where the
+// pinhole's ray does, as exactly as floats can say.
+TEST_P(CameraLaws, ExtremeLensesStillFocus) {
+  const Place& place = kPlaces[0];
+  const auto pinhole = make({}, place);
+  for (const float radius : {1e-6F, 1.F, 1e6F})
+    for (const float focus : {1e-6F, 1.F, 1e6F, 1e30F}) {
+      const auto camera = make({number("lensradius", radius), number("focaldistance", focus)});
+      Rng rng(7);
+      for (int i = 0; i < 300; ++i) {
+        const CameraSample s = randomSample(rng, place.resolution);
+        const CameraRay r = camera->generate(s, true);
+        const DPoint3 o(r.ray.o);
+        const DVec3 d(r.ray.d);
+        EXPECT_EQ(r.weight, 1);
+        EXPECT_NEAR(glm::length(d), 1, 2e-7);
+        const Ray middle = pinhole->generate(s, false).ray;
+        const DVec3 lens = o - DPoint3(middle.o);
+        EXPECT_EQ(lens.z, 0);
+        EXPECT_LE(glm::length(lens), radius * (1 + 1e-6) + 1e-6 * glm::length(DVec3(middle.o)));
+        // Both directions to the same point, with depth 1: of a distant point they are parallel.
+        const DVec3 expected = DVec3(middle.d) / double{middle.d.z} - lens / double{focus};
+        // The start is rounded to floats, and may be nearer to the focus than that.
+        const double rounding = 2e-7 * glm::length(o) / (double{focus} + glm::length(lens));
+        EXPECT_LT(glm::distance(d, glm::normalize(expected)), 1e-6 + rounding)
+            << radius << " " << focus;
+        for (const Vec3& w : {r.ray.rxDirection, r.ray.ryDirection})
+          EXPECT_NEAR(glm::length(DVec3(w)), 1, 2e-7);
+      }
+    }
+}
+
 TEST_P(CameraLaws, HitherAndYonClipByDepth) {
   const Place place{{640, 480}, awkward()};
   const auto camera = make({number("hither", 0.5F), number("yon", 20)}, place);
@@ -156,14 +237,6 @@ TEST_P(CameraLaws, HitherAndYonClipByDepth) {
     EXPECT_EQ(unclipped.tMin, 0);
     EXPECT_EQ(unclipped.tMax, kInfinity);
   }
-}
-
-TEST_P(CameraLaws, ShutterGivesTheTime) {
-  const auto camera = make({number("shutteropen", 2), number("shutterclose", 6)});
-  EXPECT_EQ(camera->generate({{1, 1}, {}, 0}, false).ray.time, 2);
-  EXPECT_EQ(camera->generate({{1, 1}, {}, 0.25F}, false).ray.time, 3);
-  EXPECT_LE(camera->generate({{1, 1}, {}, kOneMinusEpsilon}, false).ray.time, 6);
-  EXPECT_NO_THROW(make({number("shutteropen", 0), number("shutterclose", 0)}));
 }
 
 TEST_P(CameraLaws, ScreenIsWhatItsParametersSay) {
@@ -196,6 +269,10 @@ TEST_P(CameraLaws, NonsenseIsAnError) {
            {number("shutteropen", 2), number("shutterclose", 1)},
            {number("hither", 2), number("yon", 1)},
            {number("hither", -1)},
+           {screenWindow({-1e30F, 1, -1, 1})},
+           {number("frameaspectratio", 1e-30F)},
+           {number("lensradius", 1e30F)},
+           {number("lensradius", 1), number("focaldistance", 1e-30F)},
            {number("nosuch", 1)},
        })
     EXPECT_THROW(make(bad), Error) << bad.front().name;

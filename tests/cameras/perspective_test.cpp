@@ -35,6 +35,44 @@ TEST(PerspectiveCamera, CornersLieWhereTheDefinitionPutsThem) {
     }
 }
 
+// What filters take for the size of a pixel, from one of a fifth of a billionth of a turn to one
+// that fills half of the view.
+TEST(PerspectiveCamera, FootprintsAreTrueAtAnyFieldOfView) {
+  const Point2i resolution(640, 480);
+  for (const float fov : {1e-3F, 0.1F, 20.F, 90.F, 170.F, 179.9F}) {
+    const auto camera = perspective({number("fov", fov)}, resolution);
+    for (const Point2 film : {Point2(320.5F, 240.5F), Point2(10, 20), Point2(630, 240)}) {
+      const CameraRay r = camera->generate({film, {}, 0}, true);
+      EXPECT_EQ(r.weight, 1);
+      const LVec3 d = direction(fov, resolution, film);
+      for (const Point2 step : {Point2(1, 0), Point2(0, 1)}) {
+        const LVec3 to = direction(fov, resolution, film + step) - d;
+        const Vec3& neighbour = step.x > 0 ? r.ray.rxDirection : r.ray.ryDirection;
+        const LVec3 own = LVec3(neighbour) - LVec3(r.ray.d);
+        // A float near 1 is coarser than a narrow pixel.
+        for (int c = 0; c < 3; ++c)
+          EXPECT_NEAR(own[c], to[c], 3e-4L * glm::length(to) + 1.3e-7L * std::abs(d[c])) << fov;
+      }
+    }
+  }
+}
+
+// However the camera is turned, the error of a direction is that of rounding it: two units in the
+// last place of a float, or 1e-7 of a radian. A narrower pixel cannot be told from its neighbour.
+TEST(PerspectiveCamera, TurnedDirectionsAreAsExactAsFloats) {
+  const Point2i resolution(64, 48);
+  const Transform turned = Transform::rotate(50, {1, 2, -1});
+  for (const float fov : {1e-3F, 1.F, 90.F, 179.9F}) {
+    const auto camera = perspective({number("fov", fov)}, resolution, turned);
+    for (const Point2 film : {Point2(0, 0), Point2(31, 25), Point2(64, 3)}) {
+      const Ray ray = camera->generate({film, {}, 0}, false).ray;
+      const LVec3 d = direction(fov, resolution, film);
+      const DVec3 expected = turned.vector(DVec3(d));
+      EXPECT_LT(glm::distance(DVec3(ray.d), expected), 1.5e-7) << fov;
+    }
+  }
+}
+
 TEST(PerspectiveCamera, MovesWithItsSpace) {
   const Transform toRender = Transform::translate({1, 2, 3}) * Transform::rotate(90, {0, 1, 0});
   const auto camera = perspective({}, {100, 100}, toRender);

@@ -8,7 +8,7 @@
 namespace pbrt {
 namespace {
 
-BuildOptions storing(std::uint8_t aovs) {
+BuildOptions storing(AovSet aovs) {
   BuildOptions options;
   options.aovs = aovs;
   return options;
@@ -28,14 +28,14 @@ std::string ball(const std::string& centre, const std::string& eye, const std::s
 }
 
 TEST(Aov, NamesAreSets) {
-  std::uint8_t all = 0;
+  AovSet all = 0;
   for (const std::string_view name : aovNames()) {
     const auto bit = aovByName(name);
     ASSERT_TRUE(bit);
     EXPECT_EQ(all & *bit, 0);
     all |= *bit;
   }
-  EXPECT_EQ(all, 63);
+  EXPECT_EQ(all, 1023);
   EXPECT_FALSE(aovByName("colour"));
 }
 
@@ -45,8 +45,8 @@ TEST(Aov, OnlyWhatIsAskedForIsStored) {
   EXPECT_EQ(plain.names, (std::vector<std::string>{"R", "G", "B", "A"}));
   const Image one = test::renderText(scene, 0, storing(kDepth));
   EXPECT_EQ(one.names, (std::vector<std::string>{"R", "G", "B", "A", "Z"}));
-  const Image all = test::renderText(scene, 0, storing(63));
-  EXPECT_EQ(all.names.size(), 4U + 4 * 3 + 2);
+  const Image all = test::renderText(scene, 0, storing(kEveryAov));
+  EXPECT_EQ(all.names.size(), 4U + 7 * 3 + 5);
   for (int c = 0; c < 4; ++c)
     EXPECT_EQ(all.channels[c], plain.channels[c]) << "the picture itself must not change";
 }
@@ -71,7 +71,7 @@ TEST(Aov, TellOfTheSurface) {
   for (const Place& place : {Place{"0 0 0", "0 0 5", {0, 0, 0}},
                              Place{"1e6 -2e6 3e6", "1e6 -2e6 3000005", {1e6, -2e6, 3e6}}}) {
     const Image image = test::renderText(
-        ball(place.centre, place.eye, "\"matte\" \"rgb Kd\" [0.3 0.5 0.7]"), 0, storing(63));
+        ball(place.centre, place.eye, "\"matte\" \"rgb Kd\" [0.3 0.5 0.7]"), 0, storing(kEveryAov));
     const double unit = 1e-6 * (1 + glm::length(place.c));  // rounding of a channel's floats
     int inside = 0;
     for (std::size_t i = 0; i < image.channels[0].size(); ++i) {
@@ -96,6 +96,54 @@ TEST(Aov, TellOfTheSurface) {
     }
     EXPECT_GT(inside, 200);
   }
+}
+
+// A parallelogram whose u and v run along its sides, 4 and 2 long, tilted shading normals, and an
+// instance beside it.
+TEST(Aov, DetailsOfTheSurfaceAreThoseOfItsParameters) {
+  const std::string text = R"(
+    LookAt 2 1 8  2 1 0  0 1 0
+    Camera "orthographic" "float screenwindow" [-4 4 -4 4]
+    Film "image" "integer xresolution" 16 "integer yresolution" 16
+      "string aov" ["uv" "geometricnormal" "derivatives" "shape" "depth"]
+    Sampler "stratified" "integer xsamples" 2 "integer ysamples" 2 PixelFilter "box"
+    SurfaceIntegrator "whitted" WorldBegin
+    Translate 100 0 0
+    Shape "sphere" "float radius" 0.1
+    Translate -100 0 0
+    Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "point P" [0 0 0  4 0 0  4 2 0  0 2 0]
+      "normal N" [0.6 0 0.8  0.6 0 0.8  0.6 0 0.8  0.6 0 0.8] "float uv" [0 0 1 0 1 1 0 1]
+    ObjectBegin "o" Shape "disk" "float radius" 0.4 ObjectEnd
+    Translate 2 3.5 0 ObjectInstance "o"
+    WorldEnd)";
+  const Image image = test::renderText(text);
+  EXPECT_EQ(image.channel("N.X"), nullptr);
+  int mesh = 0, instance = 0;
+  for (int i = 0; i < 256; ++i) {
+    const auto at = [&](const char* name) {
+      return double{(*image.channel(name))[static_cast<std::size_t>(i)]};
+    };
+    if (at("shape") == 0) {
+      EXPECT_EQ(at("u"), 0);
+      EXPECT_EQ(at("dPdv.Y"), 0);
+    } else if (at("shape") == 2) {
+      ++mesh;
+      const double x = 6 - 0.5 * (i % 16 + 0.5), y = 5 - 0.5 * (i / 16 + 0.5);
+      EXPECT_NEAR(at("u"), x / 4, 0.05);
+      EXPECT_NEAR(at("v"), y / 2, 0.1);
+      EXPECT_NEAR(std::abs(at("Ng.Z")), 1, 1e-6);  // where N is the one for shading
+      EXPECT_NEAR(at("dPdu.X"), 4, 1e-5);
+      EXPECT_NEAR(at("dPdu.Y"), 0, 1e-5);
+      EXPECT_NEAR(at("dPdv.X"), 0, 1e-5);
+      EXPECT_NEAR(at("dPdv.Y"), 2, 1e-5);
+      EXPECT_NEAR(at("Z"), 8, 1e-4);
+    } else {
+      ++instance;
+      EXPECT_EQ(at("shape"), 3);
+    }
+  }
+  EXPECT_EQ(mesh, 8 * 4);
+  EXPECT_GE(instance, 1);
 }
 
 TEST(Aov, AlbedoIsWhatTheMaterialSendsBack) {
@@ -214,9 +262,9 @@ TEST(Aov, VarianceKnowsOfNoiseFromBeyondThePixel) {
 TEST(Aov, SameBitsForAnyThreadsAndPasses) {
   std::string text = kNoisy;
   text.replace(text.find("%FILTER%"), 8, "");
-  const Image whole = test::renderText(text, 1, storing(63));
-  EXPECT_EQ(whole.channels, test::renderText(text, 3, storing(63)).channels);
-  const auto split = test::buildText(text, storing(63));
+  const Image whole = test::renderText(text, 1, storing(kEveryAov));
+  EXPECT_EQ(whole.channels, test::renderText(text, 3, storing(kEveryAov)).channels);
+  const auto split = test::buildText(text, storing(kEveryAov));
   test::renderScene(*split, 2, 0, 3);
   EXPECT_EQ(whole.channels, test::renderScene(*split, 2, 3, 8).channels);
 }
