@@ -55,7 +55,7 @@ struct Strip {
       return c.x * e.y - c.y * e.x;
     };
     Crossing best;
-    const int steps = 250;
+    const int steps = 800;
     std::array<long double, steps + 1> values;
     for (int i = 0; i <= steps; ++i) values[i] = f(i / static_cast<long double>(steps));
     for (int i = 0; i < steps; ++i) {
@@ -108,7 +108,7 @@ class Curves : public testing::TestWithParam<bool> {};
 TEST_P(Curves, AgreeWithTheOracle) {
   Rng rng(GetParam() ? 5 : 6);
   int hits = 0, doubtful = 0, count = 0;
-  for (int i = 0; i < 40; ++i) {
+  for (int i = 0; i < 24; ++i) {
     Strip strip;
     std::vector<float> p;
     for (LVec& c : strip.p) {
