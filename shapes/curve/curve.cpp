@@ -94,8 +94,8 @@ class Curve final : public Shape {
     const DVec3 across = glm::cross(turning.n, c.tangent);
     const double length = glm::length(across);
     const DVec3 e = across / length;
-    const DVec3 flat = e - glm::dot(e, d) * d;
-    const double a = std::clamp(glm::dot(ray.o - c.p, flat) / lengthSquared(flat), -h, h);
+    const DVec3 away = ray.o - c.p, flat = e - glm::dot(e, d) * d;
+    const double a = std::clamp(glm::dot(away, flat) / lengthSquared(flat), -h, h);
 
     // With g = N x c' and e = g / |g|: e' is what is across e of g' / |g|, and e'' that of
     // (g'' - 2 |g|' e') / |g|, but for what is along e. N'' is -turn^2 N.
@@ -111,7 +111,9 @@ class Curve final : public Shape {
     const DVec3 t = glm::normalize(c.tangent), middle = side * glm::cross(t, e);
 
     SurfacePoint s;
-    s.p = c.p + a * e;
+    // What faces the ray is met where this is nearest to c, also where e is doubtful, as the curve
+    // runs along the ray.
+    s.p = c.p + (ribbon_ ? a * e : away - glm::dot(away, d) * d);
     s.uv = Point2(u, 0.5 + (h > 0 ? 0.5 * a / h : 0));
     DVec3 n, dndu(0), dndv(0);
     if (tube_) {
@@ -142,10 +144,10 @@ class Curve final : public Shape {
     s.dndu = dndu - glm::dot(dndu, n) * n;
     s.dndv = dndv - glm::dot(dndv, n) * n;
     // Other rays meet the strip elsewhere, if it faces them, but within the tube of radius h about
-    // c: who leaves p starts beyond the tube, at its tangent plane.
+    // c: who leaves p starts beyond the tube, at its tangent plane. (n is rounded to floats.)
     const DVec3 reach = glm::abs(c.p) + h;
     s.error = 1e-14 * (reach.x + reach.y + reach.z);
-    if (!ribbon_) s.error += h + std::abs(a * glm::dot(e, n));
+    if (!ribbon_) s.error += (1 + 1e-6) * (h + std::abs(a * glm::dot(e, n)));
     return s;
   }
 

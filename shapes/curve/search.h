@@ -113,6 +113,8 @@ class Search {
   void accept(double u) {
     const CurvePoint c = evaluate(curve_, u);
     const DVec3 across = glm::cross(normalAt(normal_, turn_, u).n, c.tangent);
+    // Along N, above all along the ray, a curve has no strip.
+    if (!(lengthSquared(across) > 1e-20 * lengthSquared(c.tangent))) return;
     const glm::dvec2 flat(across);
     const double a = -glm::dot(glm::dvec2(c.p), flat) / lengthSquared(flat);  // times |across|
     if (!(a * a * lengthSquared(across) <= sqr(segment_.halfWidth(u)))) return;
