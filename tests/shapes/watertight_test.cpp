@@ -17,15 +17,15 @@ namespace {
 // height, unless they are to be even, so that there are needles and slivers of all shapes.
 std::array<TriangleMesh, 2> makeBall(Rng& rng, bool even) {
   constexpr int kAround = 40, kRows = 30;
-  std::vector<float> heights, angles;
-  for (int i = 0; i <= kRows; ++i)
-    heights.push_back(i == 0       ? -1.F
-                      : i == kRows ? 1.F
-                      : even       ? 2.F * i / kRows - 1
-                                   : std::pow(10.F, -5 * rng.uniform()) * (i % 2 ? 1.F : -1.F));
+  // Rows thinner than a float's rounding have no normal, and no t, in floats: none is.
+  std::vector<float> heights{-1}, angles;
+  for (int i = 0; i < kRows; ++i)
+    heights.push_back(heights.back() + (even ? 1.F : std::pow(10.F, -4 * rng.uniform())));
+  const float total = heights.back() + 1;
+  for (float& z : heights) z = (z + 1) / total * 2 - 1;
+  heights.back() = 1;
   for (int i = 0; i < kAround; ++i)
     angles.push_back(2 * kPi * (static_cast<float>(i) + std::pow(rng.uniform(), 20.F)) / kAround);
-  std::sort(heights.begin(), heights.end());
   TriangleMesh whole;
   for (const float z : heights)
     for (const float phi : angles) {
