@@ -93,7 +93,7 @@ class Watertight : public testing::TestWithParam<bool> {
 
   // Of rays towards points that `target(half, place)` gives, in the space of the tree.
   template <class Target>
-  void expectLeaks(double share, int rays, bool even, Target target) {
+  void expectLeaks(const char* at, double share, int rays, bool even, Target target) {
     glm::dmat4 shear(1);
     shear[2][0] = 3;
     const std::array<Transform, 4> places{
@@ -109,7 +109,7 @@ class Watertight : public testing::TestWithParam<bool> {
           ray = fromWithin(place, target(ball.halves[rng_.uniform() < 0.5F], place), rng_);
         leaked += leaks(ball.tree(instanced_), batch);
       }
-      EXPECT_LE(leaked, 3 * share * rays / 4) << "place " << &place - places.data();
+      EXPECT_LE(leaked, 3 * share * rays / 4) << at << ", place " << &place - places.data();
     }
   }
   // A corner if s is 0, else a point of an edge.
@@ -123,10 +123,10 @@ class Watertight : public testing::TestWithParam<bool> {
 };
 
 TEST_P(Watertight, NoLeakInAMillionRays) {
-  expectLeaks(0, 500'000, false, [&](const TriangleMesh&, const Transform& place) {
+  expectLeaks("anywhere", 0, 500'000, false, [&](const TriangleMesh&, const Transform& place) {
     return Point3(place.point(DPoint3(uniformSphere({rng_.uniform(), rng_.uniform()}))));
   });
-  expectLeaks(0, 500'000, false, [&](const TriangleMesh& half, const Transform& place) {
+  expectLeaks("edges", 0, 500'000, false, [&](const TriangleMesh& half, const Transform& place) {
     return onEdge(half, place, 0.05F + 0.9F * rng_.uniform());
   });
 }
@@ -135,9 +135,9 @@ TEST_P(Watertight, NoLeakInAMillionRays) {
 // rays that go through a corner to the last bit up to one in a hundred slips. Others do not meet
 // it.
 TEST_P(Watertight, FewLeaksExactlyAtCorners) {
-  expectLeaks(0.05, 250'000, true, [&](const TriangleMesh& half, const Transform& place) {
-    return onEdge(half, place, 0);
-  });
+  expectLeaks(
+      "corners", 0.05, 250'000, true,
+      [&](const TriangleMesh& half, const Transform& place) { return onEdge(half, place, 0); });
 }
 
 INSTANTIATE_TEST_SUITE_P(Placed, Watertight, testing::Bool(),
