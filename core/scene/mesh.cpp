@@ -15,21 +15,30 @@ Corners corners(const TriangleMesh& mesh, std::size_t triangle) {
   return {i[0], i[1], i[2]};
 }
 
-// Bound on the distance between the plane of a triangle, as the ray tracer computes it, and a
-// point interpolated on it. Both come from a few float operations on coordinates of the size of
-// the corners and on differences of the size of the edges.
-float planeError(const Point3& a, const Point3& b, const Point3& c) {
+// The plane of a triangle: its unit normal by the winding, zero if there is no area, and a bound on
+// the distance between the plane as the ray tracer computes it and a point interpolated on it.
+//
+// Both come from a few float operations on coordinates of the size of the corners and on
+// differences of the size of the edges. The ray tracer's normal is a product of two edges no longer
+// than L: its rounding, a few units of L^2, tilts it by as many L^2 / |ab x ac|, which is L times
+// as far at the other end: about L for all but needles, and never more than half of L in the end,
+// beyond which nothing is left of the plane.
+struct Plane {
+  Normal3 n{0};
+  float error = 0;
+};
+Plane planeOf(const Point3& a, const Point3& b, const Point3& c) {
+  // In double, as the squares of edges below 1e-12 or above 1e9 leave float.
+  const DVec3 ab = DVec3(b) - DVec3(a), ac = DVec3(c) - DVec3(a), n = glm::cross(ab, ac);
+  const double doubleArea = std::sqrt(lengthSquared(n));
+  if (!(doubleArea > 0)) return {};
+  const double longest = std::sqrt(
+      std::max({lengthSquared(ab), lengthSquared(ac), lengthSquared(DVec3(c) - DVec3(b))}));
   const Vec3 size = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
-  const Vec3 edge = glm::max(glm::abs(b - a), glm::abs(c - a));
-  return gammaBound(8) * (std::max({size.x, size.y, size.z}) + std::max({edge.x, edge.y, edge.z}));
-}
-
-// The unit normal of a triangle by its winding; zero if it has no area. In double, as the squares
-// of edges below 1e-12 or above 1e9 leave float.
-Normal3 windingNormal(const Point3& a, const Point3& b, const Point3& c) {
-  const DVec3 n = glm::cross(DVec3(b) - DVec3(a), DVec3(c) - DVec3(a));
-  const double l2 = lengthSquared(n);
-  return l2 > 0 ? Normal3(n / std::sqrt(l2)) : Normal3(0);
+  const double inverse = 1 / doubleArea;
+  const double tilted = std::min(longest * longest * inverse, 1e6) * longest;
+  return {Normal3(n * inverse),
+          gammaBound(8) * (std::max({size.x, size.y, size.z}) + static_cast<float>(tilted))};
 }
 
 // The interpolated normal, of any length; zero if the mesh has none.
@@ -69,8 +78,9 @@ class MeshSampler final : public AreaSampler {
     AreaSample s;
     const float wc = 1 - w.x - w.y;
     s.p = DPoint3(a) * double(w.x) + DPoint3(b) * double(w.y) + DPoint3(c) * double(wc);
-    s.error = planeError(a, b, c);
-    s.n = normal(t, w.x, w.y, wc);
+    const Plane plane = planeAt(t, w.x, w.y, wc);
+    s.error = plane.error;
+    s.n = plane.n;
     s.pdf = pdf(from, s.p, s.n);
     return s;
   }
@@ -94,20 +104,20 @@ class MeshSampler final : public AreaSampler {
   DirectionCone normals() const override { return normals_; }
 
  private:
-  // At a point of a triangle, on the side that meshSurface() says, or the light would shine to the
-  // other one.
-  Normal3 normal(const Corners& t, float wa, float wb, float wc) const {
-    const Normal3 n =
-        windingNormal(mesh_.positions[t.a], mesh_.positions[t.b], mesh_.positions[t.c]);
+  // At a point of a triangle, the normal on the side that meshSurface() says, or the light would
+  // shine to the other one.
+  Plane planeAt(const Corners& t, float wa, float wb, float wc) const {
+    Plane plane = planeOf(mesh_.positions[t.a], mesh_.positions[t.b], mesh_.positions[t.c]);
     const Normal3 ns = vertexNormal(mesh_, t, wa, wb, wc);
-    return faceForward(flip_ ? -n : n, reverse_ ? -ns : ns);
+    plane.n = faceForward(flip_ ? -plane.n : plane.n, reverse_ ? -ns : ns);
+    return plane;
   }
 
   // About the mean normal.
   DirectionCone coneOfNormals() const {
     const auto forEach = [&](const auto& use) {
       for (std::size_t i = 0; i < mesh_.triangles(); ++i)
-        use(normal(corners(mesh_, i), 1 / 3.F, 1 / 3.F, 1 / 3.F),
+        use(planeAt(corners(mesh_, i), 1 / 3.F, 1 / 3.F, 1 / 3.F).n,
             cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0));
     };
     DVec3 sum(0);
@@ -142,7 +152,7 @@ void transformMesh(TriangleMesh& mesh, const Transform& toScene) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < mesh.triangles(); ++i) {
     const Corners t = corners(mesh, i);
-    if (windingNormal(mesh.positions[t.a], mesh.positions[t.b], mesh.positions[t.c]) == Normal3(0))
+    if (planeOf(mesh.positions[t.a], mesh.positions[t.b], mesh.positions[t.c]).n == Normal3(0))
       continue;
     for (int k = 0; k < 3; ++k) mesh.indices[kept++] = mesh.indices[3 * i + k];
   }
@@ -157,9 +167,9 @@ SurfaceInteraction meshSurface(const TriangleMesh& mesh, const Hit& hit, bool fl
 
   SurfaceInteraction s;
   s.p = wa * a + wb * b + wc * c;
-  s.error = planeError(a, b, c);
-  s.n = windingNormal(a, b, c);
-  if (flip) s.n = -s.n;
+  const Plane plane = planeOf(a, b, c);
+  s.error = plane.error;
+  s.n = flip ? -plane.n : plane.n;
 
   const bool hasUv = !mesh.uv.empty();
   const Point2 uva = hasUv ? mesh.uv[t.a] : Point2(0, 0);

@@ -80,7 +80,6 @@ constexpr std::array kTable = {
     Translation{sampler, "adaptive", "v2", "lowdiscrepancy", "maxsamples pixelsamples, * -",
                 "all pixels get the most samples"},
 
-    Translation{shape, "curve", "v3 v4", "", "", ""},
 
     Translation{texture, "ptex", "v3 v4", "", "", ""},
 };

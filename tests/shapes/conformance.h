@@ -14,6 +14,10 @@ struct Row {
   std::string label;
   ParamList params;
   bool convex = false;  // no ray that leaves outward meets it again
+  // Turns towards every ray. It is where the ray that met it saw it, and its points' errors say how
+  // far off other rays may see it: half of this width off, and as much for the normal's tilt.
+  double facingWidth = 0;
+  bool looksRound = false;  // its normals, and what dp/dv is across, are those of a tube about it
 };
 
 inline const std::map<std::string, std::vector<Row>> kTable = {
@@ -68,6 +72,35 @@ inline const std::map<std::string, std::vector<Row>> kTable = {
         value(ParamType::number, "uknots", {0, 0, 1, 1}),
         value(ParamType::number, "vknots", {0, 0, 1, 1}),
         points("P", {0, 0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0})}}}},
+    {"curve",
+     {{"straight",
+       {points("P", {0, 0, 0, 1, 0, 1, 2, 0, 2, 3, 0, 3}), number("width", 0.4F)},
+       true,
+       0.4},
+      {"tube",
+       {points("P", {0, 0, 0, 1, 0, 1, 2, 0, 2, 3, 0, 3}), number("width", 0.4F),
+        text("type", "cylinder")},
+       true,
+       0.4,
+       true},
+      {"bent",
+       {points("P", {0, 0, 0, 1, 0, 2, 2, 1, 1, 3, 0.5F, 3}), number("width0", 0.3F),
+        number("width1", 0.2F), integers("splitdepth", {1})},
+       false,
+       0.3},
+      {"round",
+       {points("P", {0, 0, 0, 1, 2, 0, 2, 2, 1, 3, 0, 1, 4, -1, 1}), text("basis", "bspline"),
+        integers("degree", {2}), number("width", 0.3F), text("type", "cylinder")},
+       false,
+       0.3,
+       true},
+      {"ribbon",
+       {points("P", {0, 0, 0, 1, 0, 2, 2, 1, 1, 3, 0.5F, 3}), number("width0", 0.3F),
+        number("width1", 0.3F), text("type", "ribbon"),
+        value(ParamType::normal, "N", {0, 1, 0, 0, 1, 0.5F})}},
+      {"twisted",
+       {points("P", {0, 0, 0, 0, 0, 1, 0, 0, 2, 0, 0.3F, 3}), number("width", 1),
+        text("type", "ribbon"), value(ParamType::normal, "N", {1, 0, 0, -1, 1, 0})}}}},
     {"metaballs",
      {{"ball", {points("P", {1, 2, 3})}},
       {"bridge", {points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}}}},

@@ -18,7 +18,8 @@ TEST_P(Traced, HitsLieWithinBoundsAndOnTheRay) {
     EXPECT_EQ(f.hit.primitive, f.primitive);
     EXPECT_GT(f.hit.t, 0);
     const Bounds3 b = shape_->bounds(f.primitive);
-    const double slack = s.error + 1e-9 * size_;
+    const bool facing = GetParam().row.facingWidth > 0;  // there this ray saw it, but for rounding
+    const double slack = (facing ? 0 : s.error) + 1e-9 * size_;
     for (int i = 0; i < 3; ++i) {
       EXPECT_GE(s.p[i], b.lo[i] - slack);
       EXPECT_LE(s.p[i], b.hi[i] + slack);
@@ -26,7 +27,7 @@ TEST_P(Traced, HitsLieWithinBoundsAndOnTheRay) {
     const DVec3 d = glm::normalize(r.d);
     const double cosine = std::max(1e-3, std::abs(glm::dot(d, DVec3(s.n))));
     const double rounding = 0x1p-23 * f.hit.t * glm::length(r.d);  // of t to float
-    EXPECT_LE(glm::length(s.p - r.at(f.hit.t)), rounding + (s.error + 1e-9 * size_) / cosine);
+    EXPECT_LE(glm::length(s.p - r.at(f.hit.t)), rounding + slack / cosine);
   });
 }
 
@@ -35,7 +36,7 @@ TEST_P(Traced, PointsLieOnTheSurfaceWithinTheirError) {
   const int count = 5000;
   forHits(count, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
     EXPECT_GE(s.error, 0);
-    EXPECT_LE(s.error, 1e-5 * size_);
+    EXPECT_LE(s.error, GetParam().row.facingWidth + 1e-5 * size_);
     // Along the normal, from h away: the surface is h away, give or take the error and rounding.
     const double h = std::max(64 * s.error, 1e-5 * size_);
     const DVec3 n(s.n);
@@ -61,7 +62,7 @@ TEST_P(Traced, FramesAreConsistent) {
     }
     for (const Vec3& t : {s.dpdu, s.dpdv, s.dndu, s.dndv}) {
       ASSERT_TRUE(isFinite(t));
-      EXPECT_LE(std::abs(glm::dot(t, s.n)), 1e-4F * glm::length(t));
+      EXPECT_LE(std::abs(glm::dot(t, s.n)), 1e-4F * glm::length(t) + 1e-30F);
     }
     EXPECT_GE(std::min(s.uv.x, s.uv.y), -1e-6F);
     EXPECT_LE(std::max(s.uv.x, s.uv.y), 1 + 1e-6F);
@@ -85,7 +86,8 @@ TEST_P(Traced, DerivativesForetellTheNeighbourhood) {
     ++tested;
     const Vec3 foretold = d.x * s.dpdu + d.y * s.dpdv;
     const Vec3 turned = q.n - s.n, foretoldTurn = d.x * s.dndu + d.y * s.dndv;
-    if (glm::length(foretold - moved) > 0.05F * glm::length(moved) ||
+    const bool flat = !GetParam().row.looksRound;
+    if ((flat && glm::length(foretold - moved) > 0.05F * glm::length(moved)) ||
         glm::length(foretoldTurn - turned) > 0.1F * glm::length(turned) + 1e-5F)
       ++wrong;
   });
@@ -106,8 +108,10 @@ TEST_P(Traced, RaysLeaveTheSurface) {
       const auto found = nearest({s.p + side * s.error * n, w});
       if (!found) continue;
       EXPECT_FALSE(side > 0 && GetParam().row.convex) << "at t = " << found->hit.t;
-      // From inside or over a hollow the way to the surface grows with the cosine.
-      if (found->hit.t < 100 * s.error + 1e-9 * size_) ++stuck;
+      // From inside or over a hollow the way to the surface grows with the cosine; what faces all
+      // rays is left by far already.
+      const double far = (GetParam().row.facingWidth > 0 ? 0.01 : 100) * s.error;
+      if (found->hit.t < far + 1e-9 * size_) ++stuck;
     }
   });
   EXPECT_LE(stuck, count / 1000);

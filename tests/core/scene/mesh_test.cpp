@@ -27,7 +27,7 @@ void forTriangles(int count, Visit visit) {
   Rng rng(5);
   for (int i = 0; i < count; ++i) {
     const float size = std::pow(10.F, 6 * rng.uniform() - 3);
-    const float thin = std::pow(10.F, -4 * rng.uniform());
+    const float thin = std::pow(10.F, -7 * rng.uniform());
     const Vec3 where = uniform(rng) * size * std::pow(10.F, 4 * rng.uniform());
     const Vec3 along = uniform(rng) * size, across = uniform(rng) * (size * thin);
     TriangleMesh mesh = triangle(where, where + along, where + rng.uniform() * along + across);
@@ -53,14 +53,8 @@ TEST(Mesh, ARayFromAHitDoesNotMeetItsOwnPlaneAgain) {
   const AccelDevice device(1);
   int rays = 0, again = 0;
   forTriangles(16000, [&](const TriangleMesh& one, Rng& rng) {
-    const Point3 a = one.positions[0], b = one.positions[1], c = one.positions[2];
-    // Of a needle the ray tracer knows the plane too badly; so it does of a few units in the last
-    // place.
-    const float edge = std::max(glm::length(b - a), glm::length(c - a));
-    const float height = glm::length(glm::cross(b - a, c - a)) / edge;
-    if (height < 0.1F * edge || height < 1e-3F * glm::length(a)) return;
     TriangleMesh mesh = one;
-    mesh.positions.push_back(b + c - a);
+    mesh.positions.push_back(one.positions[1] + one.positions[2] - one.positions[0]);
     mesh.indices.insert(mesh.indices.end(), {2, 1, 3});
     Accel accel(device);
     accel.add(mesh);
