@@ -79,6 +79,7 @@ class Path final : public SamplingIntegrator {
       pdf = specular ? 0 : s->pdf;
       ray = specular ? specularRay(at, ray, *s) : RayDifferential(spawnRay(at, s->wi));
       hit = world.intersect(ray);
+      throughput = dimmed(throughput, world, ray, hit.t);
     }
   }
 
@@ -92,8 +93,10 @@ class Path final : public SamplingIntegrator {
     const LightSample s = chosen.light.sample(at.p, chosen.u);
     const float others = chosen.light.isDelta() ? 0 : 1;
     const Spectrum L = unshadowed(at, bsdf, s, chosen.chance, others, kAllLobes);
-    if (isBlack(L) || world.occluded(shadowRay(at, s))) return Spectrum(0);
-    return L / chosen.chance;
+    if (isBlack(L)) return Spectrum(0);
+    const Ray ray = shadowRay(at, s);
+    if (world.occluded(ray)) return Spectrum(0);
+    return dimmed(L / chosen.chance, world, ray, ray.tMax);
   }
 
   // Whether a ray from p along w may meet any light.

@@ -24,7 +24,8 @@ bool startsWithAny(std::string_view text, const Strings& prefixes) {
 }
 
 const Strings kPluginFolders{"shapes/",  "integrators/", "samplers/",  "filters/",
-                             "cameras/", "lights/",      "materials/", "textures/"};
+                             "cameras/", "lights/",      "materials/", "textures/",
+                             "volumes/"};
 
 struct Rule {
   std::string who;  // files whose path starts so

@@ -93,7 +93,7 @@ std::uint8_t generationsOf(const Directive& d) {
     case ActiveTransform:
       return kV2 | kV3 | kV4;
     case MakeNamedMaterial:
-      return generationsOf(kMaterials, namedMaterialType(d)) & (kV2 | kV3 | kV4);
+      return generationsOf(kMaterials, namedType(d)) & (kV2 | kV3 | kV4);
     case Integrator:
     case MediumInterface:
     case MakeNamedMedium:
@@ -190,7 +190,7 @@ const std::vector<DefaultsRow>& defaultsTable() {
 
 }  // namespace
 
-std::string namedMaterialType(const Directive& d) {
+std::string namedType(const Directive& d) {
   for (const Param& p : d.params)
     if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
         type && p.name == "type" && !type->empty())
@@ -262,8 +262,8 @@ const DialectDefaults& dialectDefaults(Dialect dialect) {
       {"mitchell", "bestcandidate", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "lowdiscrepancy", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "halton", "path", "perspective", "matte", {1280, 720}},
-      // Its own are zsobol and volpath, which are called otherwise here; see translation.cpp.
-      {"gaussian", "lowdiscrepancy", "path", "perspective", "matte", {1280, 720}},
+      // Its own sampler is zsobol, for which another stands; see translation.cpp.
+      {"gaussian", "lowdiscrepancy", "volpath", "perspective", "matte", {1280, 720}},
   }};
   return table.at(static_cast<std::size_t>(dialect) - 1);
 }
