@@ -3,8 +3,8 @@
 
 #include "core/api/direct.h"
 #include "core/api/integrator.h"
-#include "core/api/light_choice.h"
 #include "core/api/specular.h"
+#include "core/plugin/path_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -12,28 +12,13 @@ namespace {
 
 class Path final : public SamplingIntegrator {
  public:
-  static constexpr std::string_view kStrategies[] = {"uniform", "spatial", "power"};
-
-  explicit Path(Params& p)
-      : maxDepth_(p.integer("maxdepth", 5, 0, 1'000'000, "most times that light is scattered")),
-        rrThreshold_(p.nonNegative("rrthreshold", 1,
-                                   "paths that carry less of their light than this may be ended "
-                                   "at random; 0: none is")) {
-    const std::string strategy =
-        p.choice("lightsamplestrategy", kStrategies, "uniform",
-                 "a light's chance to be sampled: equal, or by what it would send to the point");
-    // pbrt-v3 has "spatial" as default, by tables made beforehand. Probing instead costs more than
-    // it gains unless lights differ much.
-    probes_ = strategy != "uniform";
-    if (strategy == "power")
-      p.warn("lightsamplestrategy", "lights do not tell their power: read as \"spatial\"");
-  }
+  explicit Path(Params& p) : params_(p) {}
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,
               Sampler& sampler, Scratch& scratch) const override {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
-    LightChoice choice(world, probes_, scratch);
+    LightChoice choice(world, params_.probes, scratch);
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out
     float pdf = 0;      // of the ray's direction; 0: no light could have been sampled instead
@@ -58,7 +43,7 @@ class Path final : public SamplingIntegrator {
           L += throughput * emitted *
                (pdf == 0 ? 1 : weight(*at.light, at.light->pdf(choice.point(), at)));
       }
-      if (bounce == maxDepth_) return L;
+      if (bounce == params_.maxDepth) return L;
 
       // Every vertex takes the same dimensions, whatever it is made of.
       const Point2 uLight = sampler.get2D(), uBsdf = sampler.get2D();
@@ -72,9 +57,11 @@ class Path final : public SamplingIntegrator {
       if (!s) return L;
       throughput *= s->f * (std::abs(glm::dot(s->wi, at.ns)) / s->pdf);
       density *= sqr(s->eta);
-      if (bounce >= kRouletteFrom && !survives(throughput, density, sampler.get1D())) return L;
+      if (bounce >= PathParams::kRouletteFrom &&
+          !params_.survives(throughput, density, sampler.get1D()))
+        return L;
       if (!(largest(throughput) > 0)) return L;
-      if (bounce + 1 == maxDepth_ && !mayEndAtLight(world, at.p, s->wi)) return L;
+      if (bounce + 1 == params_.maxDepth && !mayEndAtLight(world, at.p, s->wi)) return L;
       const bool specular = s->flags & kSpecular;
       pdf = specular ? 0 : s->pdf;
       ray = specular ? specularRay(at, ray, *s) : RayDifferential(spawnRay(at, s->wi));
@@ -84,8 +71,6 @@ class Path final : public SamplingIntegrator {
   }
 
  private:
-  static constexpr int kRouletteFrom = 4;  // bounce
-
   static float largest(const Spectrum& s) { return std::max({s.x, s.y, s.z}); }
 
   static Spectrum direct(const World& world, const SurfaceInteraction& at, const Bsdf& bsdf,
@@ -99,25 +84,7 @@ class Path final : public SamplingIntegrator {
     return dimmed(L / chosen.chance, world, ray, ray.tMax);
   }
 
-  // Whether a ray from p along w may meet any light.
-  static bool mayEndAtLight(const World& world, const Point3& p, const Vec3& w) {
-    return !world.infiniteLights().empty() ||
-           std::ranges::any_of(world.lights(), [&](const Light* l) { return l->mayHit(p, w); });
-  }
-
-  // Russian roulette (Arvo and Kirk 1990): a path survives with a chance near the share of light
-  // that it carries, and then stands for those that do not.
-  bool survives(Spectrum& throughput, float density, float u) const {
-    const float carried = largest(throughput) * density;
-    if (carried >= rrThreshold_) return true;
-    const float chance = std::min(carried, 0.95F);
-    throughput /= chance;
-    return u < chance;
-  }
-
-  int maxDepth_;
-  float rrThreshold_;
-  bool probes_ = false;  // see LightChoice
+  PathParams params_;
 };
 
 }  // namespace

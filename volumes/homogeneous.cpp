@@ -5,11 +5,12 @@ namespace pbrt {
 
 class Homogeneous final : public Medium {
  public:
-  Homogeneous(Params& p, const Setup& setup) : Homogeneous(setup, readMedium(p), readPlace(p)) {}
+  Homogeneous(Params& p, const Setup& setup) : Homogeneous(p, setup, readMedium(p), readPlace(p)) {}
 
  private:
-  Homogeneous(const Setup& setup, const MediumParams& medium, const MediumBox& box)
+  Homogeneous(Params& p, const Setup& setup, const MediumParams& medium, const MediumBox& box)
       : Medium(setup, medium.g, box.lo, box.hi), point_(medium.unit) {
+    point_.emission *= p.nonNegative("Lescale", 1, "multiplies Le");
     const Spectrum sigma = point_.extinction();
     setCells({1, 1, 1}, {{std::max({sigma.x, sigma.y, sigma.z}), true}}, !isBlack(point_.emission));
   }

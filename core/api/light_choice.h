@@ -79,4 +79,10 @@ class LightChoice {
   float least_ = 0;
 };
 
+// Whether a ray from p along w may meet any light.
+inline bool mayEndAtLight(const World& world, const Point3& p, const Vec3& w) {
+  return !world.infiniteLights().empty() ||
+         std::ranges::any_of(world.lights(), [&](const Light* l) { return l->mayHit(p, w); });
+}
+
 }  // namespace pbrt

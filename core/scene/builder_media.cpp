@@ -12,7 +12,7 @@ bool SceneBuilder::handleMedia(Directive& d) {
       const std::string name = d.words.at(0);
       std::string type = takeType(d);
       auto defaults = defaultsFor(AttributeTarget::medium, type);
-      media_.insert_or_assign(name, NamedMedium{std::move(type), std::move(d.params), defaults,
+      media_.insert_or_assign(name, MediumDefinition{std::move(type), std::move(d.params), defaults,
                                                 d.where, startOf(d), inWorld_, nullptr});
       return true;
     }
@@ -63,7 +63,7 @@ const Medium* SceneBuilder::medium(const Directive& names, std::size_t word) {
   if (found == media_.end())
     throw Error(names.wordsWhere[word], fmt::format("there is no named medium \"{}\"{}",
                                                     shown(name), didYouMeanKey(name, media_)));
-  NamedMedium& m = found->second;
+  MediumDefinition& m = found->second;
   if (m.built || !scene_->integrator_->tracesMedia()) return m.built;
   scene_->media_.push_back(factory_.make<Medium>(
       m.type, m.params, m.where, {m.placed ? m.place : transforms_.base() * m.place}, nullptr,

@@ -127,6 +127,9 @@ Param rgb(std::string name, std::vector<float> value) {
 Param grey(std::string name, float value) {
   return rgb(std::move(name), {value, value, value});
 }
+Param point(std::string name, float value) {
+  return {ParamType::point3, std::move(name), {}, {}, std::vector<float>{value, value, value}};
+}
 Param count(std::string name, int value) {
   return {ParamType::integer, std::move(name), {}, {}, std::vector<int>{value}};
 }
@@ -146,6 +149,10 @@ struct DefaultsRow {
 
 const std::vector<DefaultsRow>& defaultsTable() {
   using enum PluginKind;
+  static const ParamList noMedium = {grey("sigma_a", 0), grey("sigma_s", 0),
+                                     flag("thermal", false)};
+  static const ParamList milk = {rgb("sigma_a", {0.0011F, 0.0024F, 0.014F}),
+                                 rgb("sigma_s", {2.55F, 3.21F, 3.77F})};
   static const std::vector<DefaultsRow> table = {
       {kV1, material, "matte", {grey("Kd", 1)}},
       {kV1, material, "mirror", {grey("Kr", 1)}},
@@ -183,6 +190,15 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV1 | kV2, integrator, "path", {count("maxdepth", 6)}},
       {kV1, sampler, "stratified", {count("xsamples", 2), count("ysamples", 2)}},
       {kV4, camera, "spherical", {text("mapping", "equalarea")}},
+      {kV1 | kV2,
+       volume,
+       "homogeneous",
+       {grey("sigma_a", 0), grey("sigma_s", 0), flag("thermal", false), point("p0", 0),
+        point("p1", 1)}},
+      {kV1 | kV2, volume, "exponential", noMedium},
+      {kV1 | kV2, volume, "volumegrid", noMedium},
+      {kV3, volume, "homogeneous", milk},
+      {kV3, volume, "heterogeneous", milk},
       {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;

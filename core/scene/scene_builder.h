@@ -54,7 +54,7 @@ class SceneBuilder {
     Shapes shapes;  // since the first instance
   };
   // A MakeNamedMedium statement; built when something is found to be in it.
-  struct NamedMedium {
+  struct MediumDefinition {
     std::string type;
     ParamList params;
     std::shared_ptr<const ParamList> attributes;
@@ -162,7 +162,7 @@ class SceneBuilder {
   TransformPair cameraFromWorld_;  // as of the Camera statement
   std::shared_ptr<const Directive> cameraMedia_;
 
-  std::map<std::string, NamedMedium> media_;
+  std::map<std::string, MediumDefinition> media_;
   // Of shapes, by the names of both sides, with the first statement that has them.
   std::map<std::pair<std::string, std::string>,
            std::pair<MediumInterface*, std::shared_ptr<const Directive>>>
