@@ -77,6 +77,7 @@ class Media {
   void start(const Medium* medium, const Ray& ray, float tEnd) {
     const DVec3 d(ray.d);
     const double length = glm::length(d);
+    if (!(length > 0)) return walk_.start(nullptr, {}, {}, {}, {});
     walk_.start(medium, world_.regions(), DPoint3(ray.o), d / length,
                 {ray.tMin * length, tEnd * length});
   }

@@ -37,7 +37,7 @@ std::optional<Interval> Medium::clip(const DPoint3& o, const DVec3& w, Interval 
 }
 
 void Medium::setCells(const glm::ivec3& n, std::vector<Cell> cells, bool glows) {
-  constexpr double kMost = 1e8;  // tentative collisions in one cell
+  constexpr double kMost = 1e7;  // tentative collisions in one cell
   const Transform toRender = toMedium_.inverse();
   double across = 0;  // a cell, no less than its diagonal in render space
   for (int i = 0; i < 3 && bounded(); ++i) {

@@ -22,13 +22,13 @@ class RayMarch : public VolumeIntegrator {
     const Point2 shift = sampler.get2D();
     Rng rng(hash(std::bit_cast<std::uint32_t>(offset), std::bit_cast<std::uint32_t>(shift.x),
                  std::bit_cast<std::uint32_t>(shift.y)));
-    const int n = steps(way->end - way->begin, step_);
+    const int n = steps(way->end - way->begin, step_, 1e5);
     const double h = (way->end - way->begin) / n;
     Spectrum added(0), T(1);
     for (int i = 0; i < n && !isBlack(T); ++i) {
       const double begin = way->begin + i * h;
-      const Spectrum depth = line.depth(world.regions(), {begin, i + 1 < n ? begin + h : way->end},
-                                        0.5 * step_, offset);
+      const Spectrum depth =
+          line.depth(world.regions(), {begin, i + 1 < n ? begin + h : way->end}, 0.5 * h, offset);
       // Where in the step light is looked for: by the density of what arrives from there in the
       // channel that reaches farthest, s exp(-s x) / (1 - exp(-s h)). So no weight exceeds h.
       const float s = std::min({depth.x, depth.y, depth.z}) / static_cast<float>(h);
@@ -69,9 +69,8 @@ class RayMarch : public VolumeIntegrator {
   static float fraction(double x) {
     return std::min(static_cast<float>(x - std::floor(x)), kOneMinusEpsilon);
   }
-  static int steps(double length, double step) {
-    constexpr double kMost = 1e5;
-    return static_cast<int>(std::clamp(std::ceil(length / step), 1.0, kMost));
+  static int steps(double length, double step, double most) {
+    return static_cast<int>(std::clamp(std::ceil(length / step), 1.0, most));
   }
 
   // A ray by distances.
@@ -101,7 +100,7 @@ class RayMarch : public VolumeIntegrator {
         while (walk.next()) {
           const Stretch& s = walk.stretch();
           if (s.rate == 0) continue;
-          const int n = s.uniform ? 1 : steps(s.length(), step);
+          const int n = s.uniform ? 1 : steps(s.length(), step, 1e3);
           const double h = s.length() / n;
           for (int i = 0; i < n; ++i)
             sum += static_cast<float>(h) *

@@ -40,7 +40,9 @@ TEST(MediumLaws, IsWellFormedAndEndsWithItsBox) {
       const MediumPoint m = medium.at(kPlace.point(q));
       for (const Spectrum& s : {m.absorption, m.scattering, m.emission})
         for (int c = 0; c < 3; ++c) ASSERT_TRUE(s[c] >= 0 && std::isfinite(s[c]));
-      if (!within) ASSERT_EQ(m.extinction(), Spectrum(0));
+      if (!within) {
+        ASSERT_EQ(m.extinction(), Spectrum(0));
+      }
       some += isBlack(m.scattering) ? 0 : 1;
     }
     EXPECT_GT(some, 20);
@@ -74,10 +76,12 @@ TEST(MediumLaws, StretchesCoverTheBoxAndBoundTheMedium) {
           if (s.uniform) {
             ASSERT_NEAR(e.y, middle.extinction().y, 1e-5F * e.y);
           }
-          if (s.rate == 0) ASSERT_TRUE(isBlack(m.emission));
+          if (s.rate == 0) {
+            ASSERT_TRUE(isBlack(m.emission));
+          }
         }
       }
-      if (box) ASSERT_EQ(end, box->end);
+      ASSERT_EQ(end, box ? box->end : 0);
     }
     EXPECT_GT(stretches, 200);
   });
