@@ -25,6 +25,7 @@ class RayMarch : public VolumeIntegrator {
     const int n = steps(way->end - way->begin, step_, 1e5);
     const double h = (way->end - way->begin) / n;
     Spectrum added(0), T(1);
+    float roulette = 1;  // what a step that is looked at stands for
     for (int i = 0; i < n && !isBlack(T); ++i) {
       const double begin = way->begin + i * h;
       const Spectrum depth =
@@ -40,10 +41,16 @@ class RayMarch : public VolumeIntegrator {
       // Effectiveness of Quasirandom Sequences"): well spread along the ray.
       const Point2 u(fraction(shift.x + i * 0.7548776662466927),
                      fraction(shift.y + i * 0.5698402909980532));
-      added += T * attenuation(sigma - s, x) * reached * gained(world, line.at(begin + x), ray, u);
+      added += roulette * T * attenuation(sigma - s, x) * reached *
+               gained(world, line.at(begin + x), ray, u);
       T *= attenuation(depth, 1);
-      if (std::max({T.x, T.y, T.z}) < kRouletteBelow)
-        T = rng.uniform() < 0.5F ? T * 2.F : Spectrum(0);
+      if (roulette * std::max({T.x, T.y, T.z}) < kRouletteBelow) {
+        roulette *= 2;
+        if (rng.uniform() < 0.5F) continue;
+        const Interval rest{std::min(begin + h, way->end), way->end};
+        T *= attenuation(line.depth(world.regions(), rest, h, offset), 1);
+        break;
+      }
     }
     return T * L + added;
   }

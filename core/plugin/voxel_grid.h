@@ -35,13 +35,13 @@ class VoxelGrid {
 
   // The least and the greatest value, in each channel, over cell c of `cells` in each direction.
   std::pair<T, T> range(const glm::ivec3& c, const glm::ivec3& cells) const {
-    const auto sampleBefore = [&](int axis, int face) {
-      return static_cast<int>(std::floor(double(face) * n_[axis] / cells[axis] - 0.5));
+    const auto inVoxels = [&](int axis, int face) {
+      return static_cast<double>(face) * n_[axis] / cells[axis] - 0.5;
     };
     glm::ivec3 lo, hi;
     for (int k = 0; k < 3; ++k) {
-      lo[k] = sampleBefore(k, c[k]);
-      hi[k] = sampleBefore(k, c[k] + 1) + 1;
+      lo[k] = static_cast<int>(std::floor(inVoxels(k, c[k])));
+      hi[k] = static_cast<int>(std::ceil(inVoxels(k, c[k] + 1)));
     }
     std::pair<T, T> range{value(lo), value(lo)};
     for (int z = lo.z; z <= hi.z; ++z)
@@ -67,9 +67,10 @@ class VoxelGrid {
   bool fades_ = false;
 };
 
-// How many cells of bounds a medium of so many voxels has.
+// How many cells of bounds a medium of so many voxels has. Half a voxel each, if there are few:
+// then samples, where slopes change, are at their corners.
 inline glm::ivec3 boundingCells(const glm::ivec3& voxels) {
-  return glm::min(voxels, glm::ivec3(16));
+  return glm::min(2 * voxels, glm::ivec3(16));
 }
 
 // Those cells, of a medium that has the extinction sigma where the grid is 1.

@@ -21,9 +21,6 @@ bool SceneBuilder::handleMedia(Directive& d) {
         d.words.push_back(d.words[0]);
         d.wordsWhere.push_back(d.wordsWhere.at(0));
       }
-      if (d.words.size() != 2)
-        throw Error(d.where,
-                    fmt::format("MediumInterface needs 1 or 2 names, not {}", d.words.size()));
       attributes_.media = std::make_shared<const Directive>(std::move(d));
       if (!firstMedia_ && !(attributes_.media->words[0] + attributes_.media->words[1]).empty())
         firstMedia_ = attributes_.media;

@@ -36,11 +36,12 @@ inline Colour measure(const std::string& text, BuildOptions options = {}) {
   return colour;
 }
 
-// `relative`: of arithmetic in floats; 1e-7: chances too small for a random number of 24 bits.
-inline void expectColour(const Colour& measured, const DVec3& expected, double relative = 2e-5) {
+// `relative`: of arithmetic in floats; `absolute`: what is too rare to be met.
+inline void expectColour(const Colour& measured, const DVec3& expected, double relative = 2e-5,
+                         double absolute = 1e-6) {
   for (int c = 0; c < 3; ++c)
     EXPECT_NEAR(measured.mean[c], expected[c],
-                kSigmas * measured.error[c] + relative * expected[c] + 1e-7)
+                kSigmas * measured.error[c] + relative * expected[c] + absolute)
         << "channel " << c;
 }
 

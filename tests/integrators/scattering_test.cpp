@@ -86,7 +86,7 @@ TEST(Scattering, BothStrategiesFindTheSameLight) {
         measure(regionScene("\"single\" \"float stepsize\" 0.1", fog + ball, "\"whitted\""));
     const Colour volpath =
         measure(regionScene("", fog + ball, "\"volpath\" \"integer maxdepth\" 0", 300));
-    EXPECT_GT(single.mean.y, 0.001);
+    EXPECT_GT(single.mean.y, 0.0005);
     EXPECT_NEAR(single.mean.y, volpath.mean.y,
                 kSigmas * std::hypot(single.error.y, volpath.error.y));
   }
@@ -117,7 +117,7 @@ TEST(Scattering, FurnaceCannotBeSeen) {
     const Colour e = measure(
         scene("0.3 0.2 -5 0.3 0.2 0 0 1 0", "\"volpath\" \"integer maxdepth\" 1000000", world, 60));
     expectColour(e, DVec3(1), 1e-4);
-    EXPECT_LT(e.error.y, 0.02);
+    EXPECT_LT(e.error.y, 0.03);
   }
 }
 
