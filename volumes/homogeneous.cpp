@@ -29,4 +29,4 @@ class Homogeneous final : public Medium {
 }  // namespace pbrt
 
 PBRT_PLUGIN(Medium, pbrt::Homogeneous, "homogeneous",
-            "a medium that is the same everywhere, or all over a box")
+            "a medium that is the same everywhere or, with p0 or p1, all over a box")

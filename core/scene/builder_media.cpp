@@ -13,7 +13,7 @@ bool SceneBuilder::handleMedia(Directive& d) {
       std::string type = takeType(d);
       auto defaults = defaultsFor(AttributeTarget::medium, type);
       media_.insert_or_assign(name, MediumDefinition{std::move(type), std::move(d.params), defaults,
-                                                d.where, startOf(d), inWorld_, nullptr});
+                                                     d.where, startOf(d), inWorld_, nullptr});
       return true;
     }
     case DirectiveKind::MediumInterface:
