@@ -111,7 +111,7 @@ class DirectLighting final : public SamplingIntegrator {
         lightPdf = light.pdfEscaped(s->wi);
       }
       if (!isBlack(L))
-        sum += s->f * L *
+        sum += s->f * dimmed(L, world, ray, hit.t) *
                (std::abs(glm::dot(s->wi, at.ns)) *
                 powerHeuristic(static_cast<float>(points.size()), s->pdf,
                                static_cast<float>(others), lightPdf) /

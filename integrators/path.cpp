@@ -3,8 +3,8 @@
 
 #include "core/api/direct.h"
 #include "core/api/integrator.h"
-#include "core/api/light_choice.h"
 #include "core/api/specular.h"
+#include "core/plugin/path_params.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -12,27 +12,13 @@ namespace {
 
 class Path final : public SamplingIntegrator {
  public:
-  static constexpr std::string_view kStrategies[] = {"uniform", "power", "spatial"};
-
-  explicit Path(Params& p)
-      : maxDepth_(p.integer("maxdepth", 5, 0, 1'000'000, "most times that light is scattered")),
-        rrThreshold_(p.nonNegative("rrthreshold", 1,
-                                   "paths that carry less of their light than this may be ended "
-                                   "at random; 0: none is")) {
-    const std::string strategy =
-        p.choice("lightsamplestrategy", kStrategies, "spatial",
-                 "a light's chance to be sampled: equal, by its power, or by what it may send to "
-                 "the point");
-    strategy_ = strategy == "uniform" ? LightStrategy::uniform
-                : strategy == "power" ? LightStrategy::power
-                                      : LightStrategy::spatial;
-  }
+  explicit Path(Params& p) : params_(p) {}
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,
               Sampler& sampler, Scratch& scratch) const override {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
-    LightChoice choice(world, strategy_);
+    LightChoice choice(world, params_.strategy);
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out
     float pdf = 0;      // of the ray's direction; 0: no light could have been sampled instead
@@ -57,7 +43,7 @@ class Path final : public SamplingIntegrator {
           L += throughput * emitted *
                (pdf == 0 ? 1 : weight(*at.light, at.light->pdf(choice.point(), at)));
       }
-      if (bounce == maxDepth_) return L;
+      if (bounce == params_.maxDepth) return L;
 
       // Every vertex takes the same dimensions, whatever it is made of.
       const Point2 uLight = sampler.get2D(), uBsdf = sampler.get2D();
@@ -71,19 +57,20 @@ class Path final : public SamplingIntegrator {
       if (!s) return L;
       throughput *= s->f * (std::abs(glm::dot(s->wi, at.ns)) / s->pdf);
       density *= sqr(s->eta);
-      if (bounce >= kRouletteFrom && !survives(throughput, density, sampler.get1D())) return L;
+      if (bounce >= PathParams::kRouletteFrom &&
+          !params_.survives(throughput, density, sampler.get1D()))
+        return L;
       if (!(largest(throughput) > 0)) return L;
-      if (bounce + 1 == maxDepth_ && !mayEndAtLight(world, at.p, s->wi)) return L;
+      if (bounce + 1 == params_.maxDepth && !mayEndAtLight(world, at.p, s->wi)) return L;
       const bool specular = s->flags & kSpecular;
       pdf = specular ? 0 : s->pdf;
       ray = specular ? specularRay(at, ray, *s) : RayDifferential(spawnRay(at, s->wi));
       hit = world.intersect(ray);
+      throughput = dimmed(throughput, world, ray, hit.t);
     }
   }
 
  private:
-  static constexpr int kRouletteFrom = 4;  // bounce
-
   static float largest(const Spectrum& s) { return std::max({s.x, s.y, s.z}); }
 
   static Spectrum direct(const World& world, const SurfaceInteraction& at, const Bsdf& bsdf,
@@ -91,30 +78,13 @@ class Path final : public SamplingIntegrator {
     const LightSample s = chosen.light.sample(at.p, chosen.u);
     const float others = chosen.light.isDelta() ? 0 : 1;
     const Spectrum L = unshadowed(at, bsdf, s, chosen.chance, others, kAllLobes);
-    if (isBlack(L) || world.occluded(shadowRay(at, s))) return Spectrum(0);
-    return L / chosen.chance;
+    if (isBlack(L)) return Spectrum(0);
+    const Ray ray = shadowRay(at, s);
+    if (world.occluded(ray)) return Spectrum(0);
+    return dimmed(L / chosen.chance, world, ray, ray.tMax);
   }
 
-  // Whether a ray from p along w may meet any light. Tracing it is cheaper than asking many.
-  static bool mayEndAtLight(const World& world, const Point3& p, const Vec3& w) {
-    constexpr std::size_t many = 16;
-    return !world.infiniteLights().empty() || world.lights().size() > many ||
-           std::ranges::any_of(world.lights(), [&](const Light* l) { return l->mayHit(p, w); });
-  }
-
-  // Russian roulette (Arvo and Kirk 1990): a path survives with a chance near the share of light
-  // that it carries, and then stands for those that do not.
-  bool survives(Spectrum& throughput, float density, float u) const {
-    const float carried = largest(throughput) * density;
-    if (carried >= rrThreshold_) return true;
-    const float chance = std::min(carried, 0.95F);
-    throughput /= chance;
-    return u < chance;
-  }
-
-  int maxDepth_;
-  float rrThreshold_;
-  LightStrategy strategy_ = LightStrategy::spatial;
+  PathParams params_;
 };
 
 }  // namespace

@@ -23,8 +23,8 @@ bool startsWithAny(std::string_view text, const Strings& prefixes) {
                      [&](const std::string& prefix) { return text.starts_with(prefix); });
 }
 
-const Strings kPluginFolders{"shapes/",  "integrators/", "samplers/",  "filters/",
-                             "cameras/", "lights/",      "materials/", "textures/"};
+const Strings kPluginFolders{"shapes/", "integrators/", "samplers/", "filters/", "cameras/",
+                             "lights/", "materials/",   "textures/", "volumes/"};
 
 struct Rule {
   std::string who;  // files whose path starts so

@@ -32,11 +32,19 @@ class NoSurface final : public AreaSampler {
   bool mayHit(const DPoint3&, const DVec3&) const override { return false; }
 };
 
+class NoLight final : public SamplingIntegrator {
+ public:
+  Spectrum Li(const World&, const RayDifferential&, const Hit&, Sampler&, Scratch&) const override {
+    return Spectrum(0);
+  }
+};
+
 // Lets the plug-in read its parameters once, with nothing given. An object may come of it or not.
 std::vector<Declaration> declarations(const PluginInfo& plugin, PluginKind kind) {
   std::vector<Declaration> found;
   Params params = Params::describing(plugin.name, found);
   const NoSurface surface;
+  const NoLight light;
   try {
     switch (kind) {
       case PluginKind::shape:
@@ -61,7 +69,10 @@ std::vector<Declaration> declarations(const PluginInfo& plugin, PluginKind kind)
         create<Filter>(plugin, params, {});
         break;
       case PluginKind::integrator:
-        create<Integrator>(plugin, params, {});
+        create<Integrator>(plugin, params, {&light});
+        break;
+      case PluginKind::volume:
+        create<Medium>(plugin, params, {});
         break;
     }
   } catch (const Error&) {

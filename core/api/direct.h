@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/api/world.h"
+#include "core/api/integrator.h"
 
 namespace pbrt {
 
@@ -45,7 +45,7 @@ class ShadowedSum {
     contributions_[count_++] = contribution;
   }
 
-  // The sum of all contributions whose ray is not blocked.
+  // The sum of all contributions whose ray is not blocked, dimmed by the regions.
   Spectrum sum() {
     trace();
     return sum_;
@@ -57,7 +57,7 @@ class ShadowedSum {
     const std::uint32_t blocked =
         world_.occluded(std::span<const Ray>(rays_.data(), static_cast<std::size_t>(count_)));
     for (int i = 0; i < count_; ++i)
-      if (!(blocked >> i & 1U)) sum_ += contributions_[i];
+      if (!(blocked >> i & 1U)) sum_ += dimmed(contributions_[i], world_, rays_[i], rays_[i].tMax);
     count_ = 0;
   }
 

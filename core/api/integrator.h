@@ -7,11 +7,16 @@
 namespace pbrt {
 
 class Film;
+class SamplingIntegrator;
+class VolumeIntegrator;
 struct RenderControl;  // core/scene/render.h: which samples, how many threads, who is told
 
 class Integrator {
  public:
-  struct Setup {};
+  struct Setup {
+    // For a volume integrator: what it adds to. It must outlive it.
+    const SamplingIntegrator* surface = nullptr;
+  };
 
   Integrator() = default;
   Integrator(const Integrator&) = delete;
@@ -22,6 +27,12 @@ class Integrator {
   // number of threads.
   virtual void render(const World& world, const Sampler& sampler, Film& film,
                       RenderControl& control) const = 0;
+
+  // Whether it traces light through media itself. Others see surfaces alone.
+  virtual bool tracesMedia() const { return false; }
+  // What they are able to do; null: not that.
+  virtual const SamplingIntegrator* sampling() const { return nullptr; }
+  virtual const VolumeIntegrator* volume() const { return nullptr; }
 };
 
 // Integrators that estimate the light along one camera ray at a time. The core's loop over tiles
@@ -31,6 +42,7 @@ class SamplingIntegrator : public Integrator {
   ~SamplingIntegrator() override;
   void render(const World& world, const Sampler& sampler, Film& film,
               RenderControl& control) const final;
+  const SamplingIntegrator* sampling() const final { return this; }
 
   // Radiance that arrives at the origin of `ray` against its direction; `hit` is where the ray
   // first meets the world, which the caller has found (not found: it escapes).
@@ -38,5 +50,37 @@ class SamplingIntegrator : public Integrator {
   virtual Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit,
                       Sampler& sampler, Scratch& scratch) const = 0;
 };
+
+// What the regions of a scene (pbrt-v1, v2) make of the light that another integrator finds. Its
+// mirrors and shadow rays ask it, too: World::volume().
+class VolumeIntegrator : public SamplingIntegrator {
+ public:
+  // Throws Error if there is no other integrator.
+  explicit VolumeIntegrator(const Setup& setup);
+  ~VolumeIntegrator() override;
+  const VolumeIntegrator* volume() const final { return this; }
+
+  Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
+              Scratch& scratch) const final {
+    return through(world, ray, hit, surface_.Li(world, ray, hit, sampler, scratch), sampler);
+  }
+
+  // What arrives of radiance L that starts against the ray where it hits (or far away), with what
+  // is added on the way.
+  virtual Spectrum through(const World& world, const Ray& ray, const Hit& hit, const Spectrum& L,
+                           Sampler& sampler) const = 0;
+  // The share that comes through from where the ray has the parameter t.
+  virtual Spectrum transmittance(const World& world, const Ray& ray, float t) const = 0;
+
+ private:
+  const SamplingIntegrator& surface_;
+};
+
+// The share of light that the regions leave on a ray up to its parameter t, where `light` is what
+// comes: for integrators of surfaces.
+inline Spectrum dimmed(const Spectrum& light, const World& world, const Ray& ray, float t) {
+  const VolumeIntegrator* const volume = world.volume();
+  return volume ? light * volume->transmittance(world, ray, t) : light;
+}
 
 }  // namespace pbrt

@@ -11,6 +11,7 @@ namespace pbrt {
 
 class Light;
 class Material;
+struct MediumInterface;
 
 // The colours that a shape itself brings along, for textures to ask for.
 class SurfaceColor {
@@ -46,8 +47,9 @@ struct SurfaceInteraction {
   Vec3 dpdx{}, dpdy{};
   float dudx = 0, dvdx = 0, dudy = 0, dvdy = 0;
   float time = 0;
-  const Material* material = nullptr;  // null: nothing to shade
-  const Light* light = nullptr;        // the area light that the surface is, or null
+  const Material* material = nullptr;      // null: nothing to shade, rays go on
+  const Light* light = nullptr;            // the area light that the surface is, or null
+  const MediumInterface* media = nullptr;  // null: the same medium on both sides
   // The shape's own colours, or null, and what they ask for: worked out only if a texture does.
   const SurfaceColor* color = nullptr;
   DPoint3 objectP{};

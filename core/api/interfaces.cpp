@@ -9,6 +9,7 @@
 #include "core/api/sampler.h"
 #include "core/api/shape.h"
 #include "core/api/world.h"
+#include "core/base/error.h"
 
 namespace pbrt {
 
@@ -23,5 +24,18 @@ Material::~Material() = default;
 World::~World() = default;
 Integrator::~Integrator() = default;
 SamplingIntegrator::~SamplingIntegrator() = default;
+VolumeIntegrator::~VolumeIntegrator() = default;
+
+namespace {
+
+const SamplingIntegrator& given(const SamplingIntegrator* surface) {
+  if (!surface)
+    throw Error("it adds volumes to another integrator: it belongs to VolumeIntegrator");
+  return *surface;
+}
+
+}  // namespace
+
+VolumeIntegrator::VolumeIntegrator(const Setup& setup) : surface_(given(setup.surface)) {}
 
 }  // namespace pbrt

@@ -89,4 +89,11 @@ class LightChoice {
   Normal3 side_{};
 };
 
+// Whether a ray from p along w may meet any light. Tracing it is cheaper than asking many.
+inline bool mayEndAtLight(const World& world, const Point3& p, const Vec3& w) {
+  constexpr std::size_t many = 16;
+  return !world.infiniteLights().empty() || world.lights().size() > many ||
+         std::ranges::any_of(world.lights(), [&](const Light* l) { return l->mayHit(p, w); });
+}
+
 }  // namespace pbrt

@@ -1,8 +1,8 @@
 #pragma once
 // Following mirror reflection and refraction.
 
+#include "core/api/integrator.h"
 #include "core/api/sampler.h"
-#include "core/api/world.h"
 
 namespace pbrt {
 
@@ -54,7 +54,11 @@ Spectrum specularLight(const World& world, const RayDifferential& ray, const Sur
     const auto s = bsdf.sample(at.wo, sampler.get2D(), lobe);
     if (!s || isBlack(s->f)) continue;
     const RayDifferential next = specularRay(at, ray, *s);
-    L += s->f * (std::abs(glm::dot(s->wi, at.ns)) / s->pdf) * Li(next, world.intersect(next));
+    const Hit hit = world.intersect(next);
+    Spectrum arriving = Li(next, hit);
+    if (const VolumeIntegrator* volume = world.volume())
+      arriving = volume->through(world, next, hit, arriving, sampler);
+    L += s->f * (std::abs(glm::dot(s->wi, at.ns)) / s->pdf) * arriving;
   }
   return L;
 }

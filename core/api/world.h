@@ -6,9 +6,12 @@
 #include "core/api/bsdf.h"
 #include "core/api/camera.h"
 #include "core/api/light_tree.h"
+#include "core/api/medium.h"
 #include "core/base/distribution.h"
 
 namespace pbrt {
+
+class VolumeIntegrator;
 
 // Which primitive a ray meets first, and where along it. Geometry and shading data are worked out
 // only when surface() is asked.
@@ -32,6 +35,7 @@ class World {
   virtual ~World();
 
   virtual Hit intersect(const Ray& ray) const = 0;
+  // Surfaces without a material do not block.
   virtual bool occluded(const Ray& ray) const = 0;
   // Up to kBatch rays at once, faster if they are alike (neighbouring pixels; one point and one
   // light). Occlusion: bit i tells of ray i.
@@ -41,7 +45,8 @@ class World {
   // The point that a hit of this ray names; `hit` must be found. The footprint is filled in if
   // the ray has differentials.
   virtual SurfaceInteraction surface(const RayDifferential& ray, const Hit& hit) const = 0;
-  // The scattering at a point (after bump mapping, which turns `at`'s shading frame).
+  // The scattering at a point, none if it has no material (after bump mapping, which turns `at`'s
+  // shading frame).
   virtual Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const = 0;
 
   std::span<const Light* const> lights() const { return lights_; }
@@ -62,6 +67,15 @@ class World {
   // Whether anything moves while the shutter is open, so that rays should have a time.
   bool moves() const { return moves_; }
 
+  // The media that lie wherever surfaces are.
+  std::span<const Medium* const> regions() const { return regions_; }
+  // What looks after them where the integrator does not; null: nobody, or there are none.
+  const VolumeIntegrator* volume() const { return volume_; }
+  // The medium about the camera; null: clear air.
+  const Medium* cameraMedium() const { return cameraMedium_; }
+  // Whether any medium has a surface as its border, so that rays should know which they are in.
+  bool bordersMedia() const { return bordersMedia_; }
+
  protected:
   std::vector<const Light*> lights_;
   std::vector<const Light*> infiniteLights_;
@@ -71,6 +85,10 @@ class World {
   Bounds3 bounds_;
   bool filters_ = false;
   bool moves_ = false;
+  std::vector<const Medium*> regions_;
+  const VolumeIntegrator* volume_ = nullptr;
+  const Medium* cameraMedium_ = nullptr;
+  bool bordersMedia_ = false;
 };
 
 }  // namespace pbrt

@@ -8,6 +8,7 @@
 #include "core/api/integrator.h"
 #include "core/api/light.h"
 #include "core/api/material.h"
+#include "core/api/medium.h"
 #include "core/api/sampler.h"
 #include "core/api/shape.h"
 #include "core/api/texture.h"
@@ -22,9 +23,10 @@ enum class PluginKind : std::uint32_t {
   camera,
   sampler,
   filter,
-  integrator
+  integrator,
+  volume
 };
-inline constexpr std::uint32_t kPluginKinds = 8;
+inline constexpr std::uint32_t kPluginKinds = 9;
 
 // "shape" and, for its folder, "shapes".
 std::string_view kindName(PluginKind kind);
@@ -53,5 +55,7 @@ template <>
 inline constexpr PluginKind kindOf<Filter> = PluginKind::filter;
 template <>
 inline constexpr PluginKind kindOf<Integrator> = PluginKind::integrator;
+template <>
+inline constexpr PluginKind kindOf<Medium> = PluginKind::volume;
 
 }  // namespace pbrt

@@ -15,9 +15,10 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::array<std::string_view, kPluginKinds> kNames = {
-    "shape", "material", "texture", "light", "camera", "sampler", "filter", "integrator"};
+    "shape", "material", "texture", "light", "camera", "sampler", "filter", "integrator", "volume"};
 constexpr std::array<std::string_view, kPluginKinds> kFolders = {
-    "shapes", "materials", "textures", "lights", "cameras", "samplers", "filters", "integrators"};
+    "shapes",   "materials", "textures",    "lights", "cameras",
+    "samplers", "filters",   "integrators", "volumes"};
 
 void addPaths(std::vector<fs::path>& path, std::string_view list) {
   while (!list.empty()) {

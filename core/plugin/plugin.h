@@ -7,7 +7,7 @@
 namespace pbrt {
 
 // Raised by hand whenever an interface of core/api changes its meaning or its virtual functions.
-inline constexpr std::uint32_t kAbiVersion = 1;
+inline constexpr std::uint32_t kAbiVersion = 2;
 
 // The fingerprint that the core itself was compiled with; compare compiledFingerprint().
 std::uint64_t coreFingerprint();
@@ -44,7 +44,7 @@ void* createPlugin(Params& params, const void* setup) {
 
 #define PBRT_PLUGIN_EXPORT extern "C" __attribute__((visibility("default")))
 
-// Interface: Shape, Material, Light, Camera, Sampler, Filter or Integrator.
+// Interface: Shape, Material, Light, Camera, Sampler, Filter, Integrator or Medium.
 #define PBRT_PLUGIN(Interface, Class, name, summary)                               \
   PBRT_PLUGIN_EXPORT const pbrt::PluginInfo* pbrt_plugin() {                       \
     static const pbrt::PluginInfo info{pbrt::kAbiVersion,                          \

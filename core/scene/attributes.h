@@ -20,6 +20,7 @@ struct Attributes {
   bool reverse = false;
   std::shared_ptr<MaterialDefinition> material;
   std::shared_ptr<const Directive> areaLight;
+  std::shared_ptr<const Directive> media;  // MediumInterface, two words; null: clear air
   std::shared_ptr<const ParamList> areaLightDefaults;
   Scope scope;
   std::array<std::shared_ptr<const ParamList>, kAttributeTargets.size()> defaults;

@@ -16,9 +16,13 @@ std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
     case DirectiveKind::Material:
       return {{PluginKind::material, d.words.at(0)}};
     case MakeNamedMaterial:
-      if (std::string type = namedMaterialType(d); !type.empty())
-        return {{PluginKind::material, std::move(type)}};
+    case MakeNamedMedium:
+      if (std::string type = namedType(d); !type.empty())
+        return {{d.kind == MakeNamedMedium ? PluginKind::volume : PluginKind::material,
+                 std::move(type)}};
       return {};
+    case Volume:
+      return {{PluginKind::volume, d.words.at(0)}};
     case DirectiveKind::Texture:
       return {{PluginKind::texture, d.words.at(2)}};
     case LightSource:
@@ -32,6 +36,7 @@ std::optional<std::pair<PluginKind, std::string>> pluginOf(const Directive& d) {
       return {{PluginKind::filter, d.words.at(0)}};
     case DirectiveKind::Integrator:
     case SurfaceIntegrator:
+    case VolumeIntegrator:
       return {{PluginKind::integrator, d.words.at(0)}};
     default:
       return {};
@@ -72,9 +77,8 @@ void SceneBuilder::handle(Directive&& d) {
 
 void SceneBuilder::carryOut(Directive&& d) {
   if (transforms_.apply(d, factory_.dialect())) return;
-  if (concernsMedia(d)) return;
   toThisGeneration(d);
-  if (handleStack(d) || handleOption(d) || handleAttribute(d)) return;
+  if (handleStack(d) || handleOption(d) || handleAttribute(d) || handleMedia(d)) return;
   handleWorld(d);
 }
 
@@ -92,20 +96,6 @@ void SceneBuilder::toThisGeneration(Directive& d) const {
   if (colorSpace_ != ColorSpace::srgb)
     for (Param& p : d.params)
       if (p.type == ParamType::rgb) moveToRec709(p, colorSpace_);
-}
-
-// Media are read, and left out of the picture.
-bool SceneBuilder::concernsMedia(const Directive& d) {
-  using enum DirectiveKind;
-  if (d.kind != MakeNamedMedium && d.kind != Volume && d.kind != MediumInterface) return false;
-  const bool some = d.kind != MediumInterface ||
-                    std::any_of(d.words.begin(), d.words.end(),
-                                [](const std::string& word) { return !word.empty(); });
-  if (some && !media_)
-    factory_.report(Severity::warning, d.where,
-                    "participating media are not there yet: the picture shows clear air");
-  media_ = media_ || some;
-  return true;
 }
 
 bool SceneBuilder::handleStack(const Directive& d) {
@@ -171,9 +161,11 @@ bool SceneBuilder::handleOption(Directive& d) {
       slot = &integrator_;
       break;
     case Option:
-    case Accelerator:       // the ray tree is Embree's
-    case VolumeIntegrator:  // without a volume it does nothing
-    case SearchPath:        // of pbrt-v1's own plug-ins
+    case Accelerator:  // the ray tree is Embree's
+    case SearchPath:   // of pbrt-v1's own plug-ins
+      break;
+    case VolumeIntegrator:
+      slot = &volumeIntegrator_;
       break;
     case Renderer:
       if (d.words.at(0) == "sampler") break;
@@ -195,6 +187,7 @@ bool SceneBuilder::handleOption(Directive& d) {
   if (slot == &camera_) {
     cameraFromWorld_ = transforms_.current();
     transforms_.name("camera", cameraFromWorld_.inverse());
+    cameraMedia_ = attributes_.media;
   }
   if (slot) *slot = std::move(d);
   return true;
@@ -233,6 +226,7 @@ void SceneBuilder::beginWorld(const Directive& d) {
   transforms_.name("camera", cameraFromWorld_.inverse());
   transforms_.name("world", Transform());
   transforms_.setBase(renderFromWorld);
+  makeIntegrator();
 }
 
 void SceneBuilder::handleWorld(Directive& d) {

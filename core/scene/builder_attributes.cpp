@@ -73,24 +73,31 @@ void SceneBuilder::setDefaults(Directive& d) {
 std::shared_ptr<const ParamList> SceneBuilder::defaultsFor(AttributeTarget target,
                                                            const std::string& name) const {
   const auto& defaults = attributes_.defaultsOf(target);
-  if (!defaults || target == AttributeTarget::medium) return defaults;
+  if (!defaults) return defaults;
   constexpr std::array kKinds = {PluginKind::shape, PluginKind::light, PluginKind::material,
-                                 PluginKind::material, PluginKind::texture};
+                                 PluginKind::volume, PluginKind::texture};
   ParamList list = *defaults;
   translateParameters(factory_.dialect(), kKinds[static_cast<std::size_t>(target)], name, list);
   return std::make_shared<const ParamList>(std::move(list));
 }
 
-void SceneBuilder::nameMaterial(Directive& d) {
+// Takes the plug-in that MakeNamedMaterial or MakeNamedMedium names out of its parameters.
+std::string SceneBuilder::takeType(Directive& d) {
   const auto type = std::find_if(d.params.begin(), d.params.end(), [](const Param& p) {
     return p.name == "type" && p.type == ParamType::string;
   });
   if (type == d.params.end())
-    throw Error(d.where, "MakeNamedMaterial needs a parameter \"string type\"");
+    throw Error(d.where,
+                fmt::format("{} needs a parameter \"string type\"", directiveName(d.kind)));
   const auto& words = std::get<std::vector<std::string>>(type->values);
   if (words.size() != 1) throw Error(type->where, "\"type\" needs 1 string");
-  const std::string plugin = words[0];
+  std::string plugin = words[0];
   d.params.erase(type);
+  return plugin;
+}
+
+void SceneBuilder::nameMaterial(Directive& d) {
+  const std::string plugin = takeType(d);
   resources_.define(attributes_.scope, d.words.at(0),
                     std::make_shared<MaterialDefinition>(
                         plugin, std::move(d.params), defaultsFor(AttributeTarget::material, plugin),

@@ -113,8 +113,17 @@ void SceneBuilder::movePixelBounds() {
   from.erase(bounds);
 }
 
-void SceneBuilder::makeFilm() {
+// Known before the world, as it decides what is built of media.
+void SceneBuilder::makeIntegrator() {
   movePixelBounds();
+  if (renderer_)
+    integrator_ =
+        Directive{DirectiveKind::Integrator, renderer_->where, {"path"}, {renderer_->where}};
+  scene_->integrator_ =
+      makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
+}
+
+void SceneBuilder::makeFilm() {
   scene_->filter_ = makeOption<Filter>(filter_, DirectiveKind::PixelFilter, defaults_.filter);
   if (!factory_.attempt([&] { readFilm(); })) {
     film_.reset();
@@ -202,11 +211,6 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   const Point2i resolution = scene_->film_->resolution();
   makeSampler(resolution);
   makeCamera(resolution);
-  if (renderer_)
-    integrator_ =
-        Directive{DirectiveKind::Integrator, renderer_->where, {"path"}, {renderer_->where}};
-  scene_->integrator_ =
-      makeOption<Integrator>(integrator_, DirectiveKind::Integrator, defaults_.integrator);
 
   Scene& scene = *scene_;
   for (const MovingGroup& moving : shapes_.moving)
@@ -242,7 +246,9 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
     scene.lightTree_ = LightTree(scene.lights_);
   }
 
-  if (scene.bounds_.empty()) note({}, "the scene has no shapes: the picture is empty");
+  finishMedia();
+  if (scene.bounds_.empty() && scene.media_.empty())
+    note({}, "the scene has no shapes: the picture is empty");
   if (scene.lights_.empty()) note({}, "the scene has no lights: the picture is black");
   return std::move(scene_);
 }

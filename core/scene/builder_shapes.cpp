@@ -57,7 +57,8 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes, Tr
 
 void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
                             const Transform& toGroup, Group& group) {
-  if (attributes.material->isInterface() && !attributes.areaLight) return;
+  const MediumInterface* media = mediaOf(attributes);
+  if (attributes.material->isInterface() && !attributes.areaLight && !media) return;
   auto g = std::make_unique<Geometry>();
 
   const std::string& name = d.words.at(0);
@@ -70,7 +71,8 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   g->shape = create<Shape>(plugin, params, {});
   factory_.attempt([&] { g->cutout = cutout(params, factory_.dialect()); });
   g->material = materialFor(params, attributes);
-  scene_->filters_ = scene_->filters_ || g->material->filters();
+  g->media = media;
+  scene_->filters_ = scene_->filters_ || (g->material && g->material->filters());
 
   g->reverse = attributes.reverse;
   g->flip = attributes.reverse != toGroup.swapsHandedness();
@@ -88,7 +90,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
                       "a shape of an object for instancing gives no light");
   }
   // Last, as the tree and the list count alike: what is in one has to be in the other.
-  const HitFilter* filter = g->cutout ? scene_.get() : nullptr;
+  const HitFilter* filter = g->cutout || !g->material ? scene_.get() : nullptr;
   if (g->mesh)
     group.accel.add(*g->mesh, filter);
   else
@@ -97,11 +99,13 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   ++scene_->shapes_;
 }
 
-// The material of a shape. What the shape does not know may be meant for it.
+// The material of a shape; null if it is but the border of media. What the shape does not know may
+// be meant for it.
 std::shared_ptr<const Material> SceneBuilder::materialFor(const Params& shape,
                                                           const Attributes& attributes) {
-  if (attributes.material->isInterface()) {  // of a shape that shines
+  if (attributes.material->isInterface()) {
     factory_.attempt([&] { shape.refuseUnread(); });
+    if (!attributes.areaLight) return nullptr;
     return factory_.make<Material>(
         "matte", {{ParamType::rgb, "Kd", {}, {}, std::vector<float>{0, 0, 0}}}, shape.where());
   }

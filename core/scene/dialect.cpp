@@ -94,7 +94,7 @@ std::uint8_t generationsOf(const Directive& d) {
     case ActiveTransform:
       return kV2 | kV3 | kV4;
     case MakeNamedMaterial:
-      return generationsOf(kMaterials, namedMaterialType(d)) & (kV2 | kV3 | kV4);
+      return generationsOf(kMaterials, namedType(d)) & (kV2 | kV3 | kV4);
     case Integrator:
     case MediumInterface:
     case MakeNamedMedium:
@@ -128,6 +128,9 @@ Param rgb(std::string name, std::vector<float> value) {
 Param grey(std::string name, float value) {
   return rgb(std::move(name), {value, value, value});
 }
+Param point(std::string name, float value) {
+  return {ParamType::point3, std::move(name), {}, {}, std::vector<float>{value, value, value}};
+}
 Param count(std::string name, int value) {
   return {ParamType::integer, std::move(name), {}, {}, std::vector<int>{value}};
 }
@@ -147,6 +150,10 @@ struct DefaultsRow {
 
 const std::vector<DefaultsRow>& defaultsTable() {
   using enum PluginKind;
+  static const ParamList noMedium = {grey("sigma_a", 0), grey("sigma_s", 0),
+                                     flag("thermal", false)};
+  static const ParamList milk = {rgb("sigma_a", {0.0011F, 0.0024F, 0.014F}),
+                                 rgb("sigma_s", {2.55F, 3.21F, 3.77F})};
   static const std::vector<DefaultsRow> table = {
       {kV1, material, "matte", {grey("Kd", 1)}},
       {kV1, material, "mirror", {grey("Kr", 1)}},
@@ -180,6 +187,15 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV2, integrator, "ambientocclusion", {count("nsamples", 2048), flag("weighted", false)}},
       {kV3, integrator, "ambientocclusion", {number("scale", std::numbers::pi_v<float>)}},
       {kV4, integrator, "ambientocclusion", {count("nsamples", 1)}},
+      {kV1 | kV2,
+       volume,
+       "homogeneous",
+       {grey("sigma_a", 0), grey("sigma_s", 0), flag("thermal", false), point("p0", 0),
+        point("p1", 1)}},
+      {kV1 | kV2, volume, "exponential", noMedium},
+      {kV1 | kV2, volume, "volumegrid", noMedium},
+      {kV3, volume, "homogeneous", milk},
+      {kV3, volume, "heterogeneous", milk},
       {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;
@@ -187,7 +203,7 @@ const std::vector<DefaultsRow>& defaultsTable() {
 
 }  // namespace
 
-std::string namedMaterialType(const Directive& d) {
+std::string namedType(const Directive& d) {
   for (const Param& p : d.params)
     if (const auto* type = std::get_if<std::vector<std::string>>(&p.values);
         type && p.name == "type" && !type->empty())
@@ -259,8 +275,7 @@ const DialectDefaults& dialectDefaults(Dialect dialect) {
       {"mitchell", "bestcandidate", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "lowdiscrepancy", "directlighting", "perspective", "matte", {640, 480}},
       {"box", "halton", "path", "perspective", "matte", {1280, 720}},
-      // Its own are zsobol and volpath, which are called otherwise here; see translation.cpp.
-      {"gaussian", "zsobol", "path", "perspective", "matte", {1280, 720}},
+      {"gaussian", "zsobol", "volpath", "perspective", "matte", {1280, 720}},
   }};
   return table.at(static_cast<std::size_t>(dialect) - 1);
 }

@@ -40,8 +40,8 @@ class DialectDetector {
   std::string told_;  // the statement that left the fewest
 };
 
-// The plug-in that a MakeNamedMaterial statement names; empty if it names none.
-std::string namedMaterialType(const Directive& d);
+// The plug-in that a MakeNamedMaterial or MakeNamedMedium statement names; empty if it names none.
+std::string namedType(const Directive& d);
 
 // Of a whole scene.
 DetectedDialect detectDialect(const std::vector<Directive>& scene);

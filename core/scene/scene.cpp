@@ -87,6 +87,7 @@ SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) co
   s.time = ray.time;
   s.material = g.material.get();
   s.light = g.light.get();
+  s.media = g.media;
   if (ray.hasDifferentials) setFootprint(s, ray);
   return s;
 }
@@ -95,7 +96,10 @@ SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) co
 // hits (as pbrt-v4 does): the same ray always sees the same, and layers do not depend on each
 // other.
 bool Scene::keeps(const Ray& ray, const Hit& hit, bool shadow) const {
-  const Cutout& cutout = *geometry(hit).cutout;
+  const Geometry& g = geometry(hit);
+  if (!g.material && shadow) return false;
+  if (!g.cutout) return true;
+  const Cutout& cutout = *g.cutout;
   const SurfaceInteraction at = surface(RayDifferential(ray), hit);
   float alpha = cutout.alpha(at);
   if (shadow) alpha = std::min(alpha, cutout.shadowAlpha(at));
@@ -108,6 +112,7 @@ bool Scene::keeps(const Ray& ray, const Hit& hit, bool shadow) const {
 }
 
 Bsdf Scene::bsdf(SurfaceInteraction& at, Scratch& scratch) const {
+  if (!at.material) return Bsdf(at);
   if (const Textured<float>* height = at.material->bumpMap()) bump(at, *height);
   Bsdf bsdf(at);
   at.material->scatter(at, bsdf, scratch);

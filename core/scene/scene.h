@@ -1,6 +1,7 @@
 #pragma once
 // A scene that is ready to be rendered: owns everything, and answers integrators.
 
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -29,7 +30,8 @@ struct Geometry {
   bool reverse = false;          // ReverseOrientation
   bool flip = false;             // whether the winding's normal points inward
   std::optional<Cutout> cutout;  // if it has holes
-  std::shared_ptr<const Material> material;  // null: no surface to shade
+  std::shared_ptr<const Material> material;  // null: only the border of media
+  const MediumInterface* media = nullptr;    // null: the same on both sides
   std::unique_ptr<AreaSampler> sampler;      // of an area light
   std::unique_ptr<Light> light;              // the area light that it is; else null
 };
@@ -99,7 +101,10 @@ class Scene final : public World, private HitFilter {
   std::unique_ptr<Sampler> sampler_;
   std::function<std::unique_ptr<Sampler>(std::uint64_t, std::optional<int>)> makeSampler_;
   std::uint64_t seed_ = 0;
+  std::unique_ptr<Integrator> surfaceIntegrator_;  // to which a volume integrator adds
   std::unique_ptr<Integrator> integrator_;
+  std::vector<std::unique_ptr<Medium>> media_;
+  std::deque<MediumInterface> interfaces_;  // addresses stay valid
   std::unique_ptr<Film> film_;
   std::string outputFile_;
   std::map<std::string, ImageAttribute> attributes_;

@@ -1,7 +1,7 @@
 #pragma once
 // The builder behind SceneReader (scene_reader.cpp), in parts: statements (builder.cpp), what
-// shapes are made of (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), and what
-// waits until the end (builder_finish.cpp).
+// shapes are made of (builder_attributes.cpp), shapes and lights (builder_shapes.cpp), media
+// (builder_media.cpp), and what waits until the end (builder_finish.cpp).
 
 #include "core/base/colorspace.h"
 #include "core/base/parallel.h"
@@ -53,6 +53,16 @@ class SceneBuilder {
     std::vector<PendingShape> pending;
     Shapes shapes;  // since the first instance
   };
+  // A MakeNamedMedium statement; built when something is found to be in it.
+  struct MediumDefinition {
+    std::string type;
+    ParamList params;
+    std::shared_ptr<const ParamList> attributes;
+    Location where;
+    Transform place;
+    bool placed = false;  // in render space; else in world space, which is not known in it yet
+    const Medium* built = nullptr;
+  };
   struct Saved {
     Attributes attributes;
     TransformState::Current transform;
@@ -70,7 +80,12 @@ class SceneBuilder {
   void beginWorld(const Directive& d);
   void save(const Directive& d);
   void restore(const Directive& d, DirectiveKind begin);
-  bool concernsMedia(const Directive& d);
+  bool handleMedia(Directive& d);
+  void addRegion(const Directive& d);
+  const MediumInterface* mediaOf(const Attributes& attributes);
+  const Medium* medium(const Directive& names, std::size_t word);
+  void finishMedia();
+  static std::string takeType(Directive& d);
   static ColorSpace colorSpaceOf(const Directive& d);
   void setDefaults(Directive& d);
   std::shared_ptr<const ParamList> defaultsFor(AttributeTarget target,
@@ -92,6 +107,7 @@ class SceneBuilder {
                    const AnimatedTransform& inner);
   const Transform& startOf(const Directive& d) const;
   void addLight(const Directive& d);
+  void makeIntegrator();
   void movePixelBounds();
   void makeFilm();
   void readFilm();
@@ -104,15 +120,17 @@ class SceneBuilder {
   const Directive& option(std::optional<Directive>& given, DirectiveKind kind,
                           const std::string& name) const;
   // The object of an option statement, or what the generation uses without one; in a permissive
-  // scene also if the statement is wrong.
+  // scene also if the statement is wrong, or `check` throws.
   template <class Interface>
   std::unique_ptr<Interface> makeOption(std::optional<Directive>& given, DirectiveKind kind,
                                         const std::string& fallback,
-                                        const typename Interface::Setup& setup = {}) {
+                                        const typename Interface::Setup& setup = {},
+                                        const std::function<void(const Interface&)>& check = {}) {
     std::unique_ptr<Interface> object;
     const auto make = [&] {
       const Directive& d = option(given, kind, fallback);
       object = factory_.make<Interface>(d.words.at(0), d.params, d.where, setup);
+      if (check) check(*object);
     };
     if (!factory_.attempt(make)) {
       given.reset();
@@ -133,17 +151,24 @@ class SceneBuilder {
   std::vector<Saved> stack_;
   bool inWorld_ = false, worldSeen_ = false;
   bool ended_ = false;  // something came after WorldEnd
-  bool media_ = false;  // there are some; said so
   std::map<std::string, Object> objects_;
   Object* openObject_ = nullptr;
   Shapes shapes_;  // of the scene itself
 
   std::optional<Directive> renderer_;  // one that integrates light itself
-  std::optional<Directive> camera_, sampler_, filter_, film_, integrator_;
+  std::optional<Directive> camera_, sampler_, filter_, film_, integrator_, volumeIntegrator_;
   std::optional<std::uint64_t> seed_;  // of Option "integer seed"
   ColorSpace colorSpace_ = ColorSpace::srgb;
   TransformPair cameraFromWorld_;  // as of the Camera statement
   float filmDiagonal_ = 35;        // mm
+  std::shared_ptr<const Directive> cameraMedia_;
+
+  std::map<std::string, MediumDefinition> media_;
+  // Of shapes, by the names of both sides, with the first statement that has them.
+  std::map<std::pair<std::string, std::string>,
+           std::pair<MediumInterface*, std::shared_ptr<const Directive>>>
+      interfaces_;
+  std::shared_ptr<const Directive> firstMedia_;  // the first MediumInterface with a name
 };
 
 }  // namespace pbrt

@@ -33,13 +33,13 @@ constexpr std::array kTable = {
     Translation{filter, "triangle", "v4", "triangle", kRadii, ""},
 
     Translation{integrator, "path", "v4", "path", kLights, ""},
-    Translation{integrator, "volpath", "v3 v4", "path", kLights, ""},
+    Translation{integrator, "volpath", "v4", "volpath", kLights, ""},
     Translation{integrator, "simplepath", "v4", "path", "maxdepth maxdepth, * -", ""},
-    Translation{integrator, "simplevolpath", "v4", "path", "", ""},
+    Translation{integrator, "simplevolpath", "v4", "volpath", "maxdepth maxdepth, * -", ""},
     Translation{integrator, "randomwalk", "v4", "path", "", ""},
-    Translation{integrator, "bdpt", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "bdpt", "v3 v4", "volpath", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "lightpath", "v4", "path", "maxdepth maxdepth, * -", kPaths},
-    Translation{integrator, "mlt", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
+    Translation{integrator, "mlt", "v3 v4", "volpath", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "sppm", "v3 v4", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "bidirectional", "v1", "path", "maxdepth maxdepth, * -", kPaths},
     Translation{integrator, "photonmap", "v1 v2", "path", "maxdepth maxdepth, * -", kPaths},
@@ -82,6 +82,9 @@ constexpr std::array kTable = {
 
 
     Translation{texture, "ptex", "v3 v4", "", "", ""},
+
+    Translation{volume, "heterogeneous", "v3", "uniformgrid", "", ""},
+    Translation{volume, "nanovdb", "v4", "", "", ""},
 };
 
 // The next piece of a list up to a separator, blanks about it taken away.
@@ -168,7 +171,8 @@ void translateParameters(Dialect dialect, PluginKind kind, const std::string& na
     for (Param& p : params) p.name = renamed(*t, p.name);
   }
   if (kind == texture && name == "imagemap") powerOfScaled(params);
-  const bool path = kind == integrator && (name == "path" || (t && t->target == "path"));
+  const std::string_view target = t ? t->target : name;
+  const bool path = kind == integrator && (target == "path" || target == "volpath");
   const bool shallow = dialect == Dialect::v1 || (dialect == Dialect::v2 && path);
   for (Param& p : params) {
     if (kind == integrator && shallow && p.name == "maxdepth") deepen(p);

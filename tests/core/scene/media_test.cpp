@@ -1,0 +1,197 @@
+// Statements about media: what they mean, and what is said about those that are wrong.
+
+#include <gmock/gmock.h>
+
+#include "tests/scenes.h"
+
+namespace pbrt {
+namespace {
+
+using testing::HasSubstr;
+
+struct Built {
+  std::unique_ptr<Scene> scene;
+  std::string said;  // warnings
+};
+
+Built build(const std::string& text, bool permissive = false) {
+  Built built;
+  BuildOptions options;
+  options.permissive = permissive;
+  options.report = [&](const Diagnostic& d) { built.said += d.message + '\n'; };
+  built.scene = test::buildText(text, options);
+  return built;
+}
+
+std::string failure(const std::string& text) {
+  try {
+    build(text);
+  } catch (const Error& error) {
+    std::string all;
+    for (const Diagnostic& d : error.diagnostics()) {
+      EXPECT_GT(d.line, 0U) << d.message;
+      all += d.message + '\n';
+    }
+    return all;
+  }
+  return "";
+}
+
+std::string volpath(const std::string& world,
+                    const std::string& before = "Camera \"perspective\" ") {
+  return before + "Integrator \"volpath\" WorldBegin " + world +
+         " LightSource \"point\" Shape \"sphere\" WorldEnd";
+}
+std::string regions(const std::string& world, const std::string& volume = "") {
+  return "Camera \"perspective\" SurfaceIntegrator \"whitted\" " + volume + " WorldBegin " + world +
+         " LightSource \"point\" Shape \"sphere\" WorldEnd";
+}
+std::string medium(const std::string& rest) {
+  return "MakeNamedMedium \"fog\" \"string type\" " + rest + " MediumInterface \"fog\" \"\" ";
+}
+
+TEST(Media, BordersAreBuiltForThoseWhoLook) {
+  const std::string world = medium("\"homogeneous\"") +
+                            "AttributeBegin Material \"\" "
+                            "Shape \"sphere\" AttributeEnd";
+  const Built seen = build(volpath(world));
+  EXPECT_EQ(seen.said, "");
+  EXPECT_EQ(seen.scene->shapes(), 2U);
+  EXPECT_TRUE(seen.scene->bordersMedia());
+  EXPECT_EQ(seen.scene->cameraMedium(), nullptr);
+
+  std::string text = volpath(world);
+  text.replace(text.find("volpath"), 7, "path");
+  const Built unseen = build(text);
+  EXPECT_THAT(unseen.said, HasSubstr("sees no participating media"));
+  EXPECT_EQ(unseen.said.find("sees no"), unseen.said.rfind("sees no"));
+  EXPECT_EQ(unseen.scene->shapes(), 1U);
+  EXPECT_FALSE(unseen.scene->bordersMedia());
+}
+
+// The same on both sides is no border.
+TEST(Media, NoBorderWithoutDifference) {
+  const Built same =
+      build(volpath("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" "
+                    "MediumInterface \"fog\" Material \"none\" Shape \"cone\" "
+                    "Material \"matte\""));
+  EXPECT_EQ(same.scene->shapes(), 1U);
+  EXPECT_FALSE(same.scene->bordersMedia());
+}
+
+// Before the world a medium lies in the coordinates of that place; what is defined later is found.
+TEST(Media, CameraIsInItsMedium) {
+  const Built built = build(volpath(
+      "MakeNamedMedium \"fog\" \"string type\" \"uniformgrid\" \"float density\" 1 \"point p0\" "
+      "[-1 -1 -1]",
+      "MakeNamedMedium \"haze\" \"string type\" \"homogeneous\" \"float scale\" 2\n"
+      "Translate 0 0 5 MediumInterface \"\" \"fog\" Camera \"perspective\" Identity "));
+  const Medium* fog = built.scene->cameraMedium();
+  ASSERT_TRUE(fog);
+  EXPECT_TRUE(fog->bounded());
+  // The camera is at z = -5, and render space about it.
+  EXPECT_GT(fog->at({0, 0, 5}).scattering.x, 0);
+  EXPECT_EQ(fog->at({0, 0, 0}).scattering.x, 0);
+}
+
+TEST(Media, RegionsHaveTheEmissionIntegratorUnlessToldOtherwise) {
+  const std::string box = "Volume \"homogeneous\" \"color sigma_a\" [1 1 1]";
+  const Built built = build(regions(box));
+  EXPECT_EQ(built.said, "");
+  EXPECT_EQ(built.scene->regions().size(), 1U);
+  EXPECT_TRUE(built.scene->volume());
+  EXPECT_EQ(build(regions("")).scene->volume(), nullptr);
+  EXPECT_EQ(build(regions("", "VolumeIntegrator \"single\"")).scene->volume(), nullptr);
+
+  const Built traced = build(
+      "SurfaceIntegrator \"volpath\" VolumeIntegrator \"single\" WorldBegin " + box + " WorldEnd");
+  EXPECT_EQ(traced.scene->volume(), nullptr);
+  EXPECT_EQ(traced.scene->regions().size(), 1U);
+  EXPECT_THAT(traced.said,
+              HasSubstr("without effect: the integrator traces light through volumes"));
+}
+
+TEST(Media, WhatIsWrongIsSaidWithItsPlace) {
+  const auto expectFailure = [](const std::string& text, const char* message) {
+    EXPECT_THAT(failure(text), HasSubstr(message)) << text;
+  };
+  expectFailure(volpath("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" "
+                        "MediumInterface \"fogg\" \"\""),
+                "there is no named medium \"fogg\"; did you mean \"fog\"?");
+  expectFailure("MediumInterface \"\" \"fgo\" Camera \"perspective\" " +
+                    volpath("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\""),
+                "there is no named medium \"fgo\"; did you mean \"fog\"?");
+  expectFailure(volpath("MakeNamedMedium \"fog\" \"float g\" 0"),
+                "needs a parameter \"string type\"");
+  expectFailure(volpath(medium("\"homogenous\"")), "did you mean \"homogeneous\"?");
+  expectFailure(volpath(medium("\"nanovdb\"")), "not here yet");
+  expectFailure(volpath(medium("\"homogeneous\" \"rgb sigma_a\" [1 -1 1]")),
+                "\"sigma_a\" must not be negative, but is -1");
+  expectFailure(volpath(medium("\"homogeneous\" \"float g\" 1")), "\"g\"");
+  expectFailure(volpath(medium("\"homogeneous\" \"rgb Le\" [-1 0 0]")), "\"Le\"");
+  expectFailure(volpath(medium("\"homogeneous\" \"string preset\" \"Whole milk\"")),
+                "did you mean \"Wholemilk\"?");
+  expectFailure(volpath(medium("\"uniformgrid\" \"integer nx\" 2 \"float density\" [1 2 3]")),
+                "needs 2 x 1 x 1 = 2 values, not 3");
+  expectFailure(volpath(medium("\"uniformgrid\" \"float density\" [-1]")),
+                "must not be negative, but is -1");
+  expectFailure(volpath(medium("\"uniformgrid\"")), "needs 1 x 1 x 1 = 1 values, not 0");
+  expectFailure(volpath(medium("\"uniformgrid\" \"float density\" 1 \"point p1\" [0 1 1]")),
+                "makes the box flat");
+  expectFailure(volpath(medium("\"uniformgrid\" \"float density\" 1 \"rgb sigma_a\" [1e30 1 1]")),
+                "too dense to be traced");
+  expectFailure(volpath(medium("\"homogeneous\" \"rgb sigma_a\" [1e38 1 1] \"float scale\" 100")),
+                "denser than can be told");
+  expectFailure(volpath(medium("\"rgbgrid\" \"rgb Le\" [1 1 1]")), "needs \"sigma_a\"");
+  expectFailure(volpath(medium("\"homogeneous\" \"float sgima\" 1")), "sgima");
+
+  expectFailure(regions("Volume \"volumegrid\" \"integer ny\" 3 \"float density\" [1 2]"),
+                "needs 1 x 3 x 1 = 3 values, not 2");
+  expectFailure(regions("Volume \"exponential\" \"vector updir\" [0 0 0]"), "updir");
+  expectFailure(regions("Volume \"homogeneous\"", "VolumeIntegrator \"path\""),
+                "\"path\" is no volume integrator");
+  expectFailure(regions("Volume \"homogeneous\"", "VolumeIntegrator \"singel\""),
+                "did you mean \"single\"?");
+  expectFailure("SurfaceIntegrator \"single\" WorldBegin Shape \"sphere\" WorldEnd",
+                "it belongs to VolumeIntegrator");
+  expectFailure("Volume \"homogeneous\" WorldBegin WorldEnd", "Volume belongs after WorldBegin");
+}
+
+// A permissive scene goes on in clear air.
+TEST(Media, PermissiveScenesGoOn) {
+  const Built built = build(volpath("MediumInterface \"fog\" \"\" "), true);
+  EXPECT_THAT(built.said, HasSubstr("there is no named medium"));
+  const Built region = build(regions("Volume \"homogeneous\"", "VolumeIntegrator \"path\""), true);
+  EXPECT_TRUE(region.scene->volume());
+}
+
+// pbrt-v1 has nothing where v3 has milk and v4 has 1.
+TEST(Media, DefaultsGoByGeneration) {
+  const Built v1 = build(regions("Volume \"homogeneous\""));
+  EXPECT_EQ(v1.scene->regions()[0]->at({0.5, 0.5, 0.5}).extinction(), Spectrum(0));
+  const auto camera = [](const char* more) {
+    return build(volpath("",
+                         "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" MediumInterface "
+                         "\"m\" Film " +
+                             std::string(more) + " Camera \"perspective\" "))
+        .scene->cameraMedium()
+        ->at(DPoint3(0));
+  };
+  EXPECT_EQ(camera("\"image\"").scattering, Spectrum(2.55F, 3.21F, 3.77F));
+  EXPECT_EQ(camera("\"rgb\"").scattering, Spectrum(1));
+}
+
+// Milk by its name, a tenth of it; what is given beside the name goes before it.
+TEST(Media, PresetsAreMeasuredMedia) {
+  const Built built = build(
+      volpath("",
+              "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" \"Cream\" "
+              "\"float scale\" 0.1 \"rgb sigma_a\" [1 2 3] MediumInterface \"m\" Film \"image\" "
+              "Camera \"perspective\" "));
+  const MediumPoint m = built.scene->cameraMedium()->at(DPoint3(0));
+  EXPECT_NEAR(m.scattering.x, 0.738, 1e-6);
+  EXPECT_NEAR(m.absorption.z, 0.3, 1e-6);
+}
+
+}  // namespace
+}  // namespace pbrt
