@@ -24,6 +24,8 @@ class AmbientOcclusion final : public SamplingIntegrator {
             p.positive("maxdistance", kInfinity, "what is farther hides no sky", "scene units")),
         scale_(p.nonNegative("scale", 1, "of a point that sees all of the sky")) {}
 
+  bool usesLights() const override { return false; }
+
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch&) const override {
     if (!hit.found()) return Spectrum(0);

@@ -39,6 +39,8 @@ class Debug final : public SamplingIntegrator {
   explicit Debug(Params& p)
       : shown_{quantity(p, "red", "u"), quantity(p, "green", "v"), quantity(p, "blue", "zero")} {}
 
+  bool usesLights() const override { return false; }
+
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler&,
               Scratch& scratch) const override {
     SurfaceInteraction at;

@@ -28,6 +28,8 @@ class Integrator {
   virtual void render(const World& world, const Sampler& sampler, Film& film,
                       RenderControl& control) const = 0;
 
+  // Whether without any light its picture is black.
+  virtual bool usesLights() const { return true; }
   // Whether it traces light through media itself. Others see surfaces alone.
   virtual bool tracesMedia() const { return false; }
   // What they are able to do; null: not that.

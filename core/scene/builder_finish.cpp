@@ -249,7 +249,8 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   finishMedia();
   if (scene.bounds_.empty() && scene.media_.empty())
     note({}, "the scene has no shapes: the picture is empty");
-  if (scene.lights_.empty()) note({}, "the scene has no lights: the picture is black");
+  if (scene.lights_.empty() && scene.media_.empty() && scene.integrator_->usesLights())
+    note({}, "the scene has no lights: the picture is black");
   return std::move(scene_);
 }
 

@@ -203,6 +203,16 @@ TEST(Builder, StandInsWarnOnceAliasesDoNot) {
   EXPECT_TRUE(contains(said[0], "\"lowdiscrepancy\" takes its place")) << said[0];
 }
 
+TEST(Builder, DarkScenesAreToldOfUnlessTheIntegratorNeedsNoLight) {
+  const auto said = [](const std::string& integrator) {
+    return warnings(integrator + " WorldBegin Shape \"disk\" WorldEnd");
+  };
+  ASSERT_EQ(said("Integrator \"path\"").size(), 1U);
+  EXPECT_TRUE(contains(said("Integrator \"path\"")[0], "no lights"));
+  EXPECT_TRUE(said("Integrator \"ambientocclusion\"").empty());
+  EXPECT_TRUE(said("SurfaceIntegrator \"debug\"").empty());
+}
+
 TEST(Builder, DefaultsFollowTheDialect) {
   for (const auto& [dialect, resolution, samples, kd] :
        {std::tuple{Dialect::v1, Point2i(640, 480), 4, 1.F},
