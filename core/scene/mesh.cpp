@@ -18,11 +18,12 @@ Corners corners(const TriangleMesh& mesh, std::size_t triangle) {
 // The plane of a triangle: its unit normal by the winding, zero if there is no area, and a bound on
 // the distance between the plane as the ray tracer computes it and a point interpolated on it.
 //
-// Both come from a few float operations on coordinates of the size of the corners and on
-// differences of the size of the edges. The ray tracer's normal is a product of two edges no longer
-// than L: its rounding, a few units of L^2, tilts it by as many L^2 / |ab x ac|, which is L times
-// as far at the other end: about L for all but needles, and never more than half of L in the end,
-// beyond which nothing is left of the plane.
+// Both come from a few float operations on coordinates of the size of the corners. The ray tracer's
+// normal is a product of two edges, of which a component k is uncertain by a few units in the last
+// place of the triangle's extent e_k. So a component of the normal is uncertain by as many of the
+// product of the other two extents, and moves the plane, at the far end, by that times e_k over
+// |ab x ac|: e_x e_y e_z / |ab x ac| for each component. That is about the longest edge, but more
+// for needles, of whose plane nothing is left in the end, and nothing in a coordinate plane.
 struct Plane {
   Normal3 n{0};
   float error = 0;
@@ -32,11 +33,11 @@ Plane planeOf(const Point3& a, const Point3& b, const Point3& c) {
   const DVec3 ab = DVec3(b) - DVec3(a), ac = DVec3(c) - DVec3(a), n = glm::cross(ab, ac);
   const double doubleArea = std::sqrt(lengthSquared(n));
   if (!(doubleArea > 0)) return {};
-  const double longest = std::sqrt(
-      std::max({lengthSquared(ab), lengthSquared(ac), lengthSquared(DVec3(c) - DVec3(b))}));
-  const Vec3 size = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
   const double inverse = 1 / doubleArea;
-  const double tilted = std::min(longest * longest * inverse, 1e6) * longest;
+  const DVec3 extent = glm::max(glm::max(glm::abs(ab), glm::abs(ac)), glm::abs(ac - ab));
+  const double longest = std::max({extent.x, extent.y, extent.z});
+  const double tilted = std::min(3 * extent.x * extent.y * extent.z * inverse, 1e6 * longest);
+  const Vec3 size = glm::max(glm::abs(a), glm::max(glm::abs(b), glm::abs(c)));
   return {Normal3(n * inverse),
           gammaBound(8) * (std::max({size.x, size.y, size.z}) + static_cast<float>(tilted))};
 }
@@ -115,18 +116,19 @@ class MeshSampler final : public AreaSampler {
 
   // About the mean normal.
   DirectionCone coneOfNormals() const {
-    const auto forEach = [&](const auto& use) {
-      for (std::size_t i = 0; i < mesh_.triangles(); ++i)
-        use(planeAt(corners(mesh_, i), 1 / 3.F, 1 / 3.F, 1 / 3.F).n,
-            cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0));
-    };
     DVec3 sum(0);
-    forEach([&](const Normal3& n, double area) { sum += area * DVec3(n); });
+    for (std::size_t i = 0; i < mesh_.triangles(); ++i)
+      sum += (cumulative_[i] - (i > 0 ? cumulative_[i - 1] : 0)) *
+             DVec3(planeAt(corners(mesh_, i), 1 / 3.F, 1 / 3.F, 1 / 3.F).n);
     if (!(lengthSquared(sum) > 1e-6 * sqr(area()))) return {};
     DirectionCone cone{glm::normalize(sum), 1};
-    forEach([&](const Normal3& n, double) {
-      cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, n));
-    });
+    // The side goes by the interpolated normal: if it is another one anywhere, then at a corner.
+    for (std::size_t i = 0; i < mesh_.triangles(); ++i)
+      for (int k = 0; k < 3; ++k) {
+        const Normal3 n =
+            planeAt(corners(mesh_, i), k == 0 ? 1 : 0, k == 1 ? 1 : 0, k == 2 ? 1 : 0).n;
+        cone.cosine = std::min(cone.cosine, glm::dot(cone.axis, n));
+      }
     return cone;
   }
 
