@@ -44,8 +44,10 @@ constexpr std::array kCameras = {TellTale{kV1 | kV2 | kV3, "environment"},
                                  TellTale{kV4, "spherical"}};
 constexpr std::array kAreaLights = {TellTale{kV1 | kV2 | kV3, "area"}};
 constexpr std::array kFilmParameters = {
-    TellTale{kV1, "premultiplyalpha writefrequency"},
+    TellTale{kV1, "premultiplyalpha writefrequency"}, TellTale{kV3 | kV4, "diagonal"},
     TellTale{kV4, "iso sensor whitebalance maxcomponentvalue savefp16"}};
+constexpr std::array kCameraParameters = {
+    TellTale{kV3 | kV4, "lensfile aperturediameter focusdistance simpleweighting"}};
 constexpr std::array kLights = {TellTale{kV1, "infinitesample"}};
 constexpr std::array kSurfaceIntegrators = {
     TellTale{kV1, "bidirectional debug"},
@@ -244,6 +246,9 @@ void DialectDetector::look(const Directive& d) {
            plain ? "true and false without quotes" : fmt::format("\"{}\"", declaredType(p)));
     if (d.kind == Film)
       narrow(generationsOf(kFilmParameters, p.name), p.where, fmt::format("Film's \"{}\"", p.name));
+    if (d.kind == Camera)
+      narrow(generationsOf(kCameraParameters, p.name), p.where,
+             fmt::format("Camera's \"{}\"", p.name));
   }
 }
 

@@ -74,12 +74,11 @@ constexpr std::array kTable = {
 
     Translation{sampler, "02sequence", "v3", "lowdiscrepancy", "", ""},
     Translation{sampler, "independent", "v4", "random", "", ""},
-    Translation{sampler, "paddedsobol", "v4", "lowdiscrepancy", "randomization -", ""},
+    Translation{sampler, "paddedsobol", "v4", "sobol", "", ""},
     Translation{sampler, "pmj02bn", "v4", "zsobol", "", kNoise},
     Translation{sampler, "maxmindist", "v3", "lowdiscrepancy", "", kNoise},
     Translation{sampler, "adaptive", "v2", "lowdiscrepancy", "maxsamples pixelsamples, * -",
                 "all pixels get the most samples"},
-
 
     Translation{texture, "ptex", "v3 v4", "", "", ""},
 

@@ -51,6 +51,8 @@ TEST(Dialect, PluginsThatNotAllHaveDecide) {
   EXPECT_EQ(world("Shape \"curve\""), Dialect::v3);
   EXPECT_EQ(world("LightSource \"infinitesample\""), Dialect::v1);
   EXPECT_EQ(detected("WorldBegin Shape \"bilinearmesh\" WorldEnd"), Dialect::v4);
+  EXPECT_EQ(detected("Camera \"realistic\" \"string lensfile\" \"a.dat\" WorldBegin WorldEnd"),
+            Dialect::v3);
   EXPECT_EQ(detected("WorldBegin Shape \"nurbs\""), Dialect::v2);  // v4 has none
   EXPECT_EQ(detected("SurfaceIntegrator \"bidirectional\" WorldBegin WorldEnd"), Dialect::v1);
   EXPECT_NE(detect("SurfaceIntegrator \"glossyprt\"").reason.find("glossyprt\" tells"),

@@ -21,7 +21,8 @@ TriangleMesh triangle(const Point3& a, const Point3& b, const Point3& c) {
   return mesh;
 }
 
-// Random triangles, from needles to fat ones, of all sizes, near the origin and far from it.
+// Random triangles, from needles to fat ones, of all sizes, near the origin and far from it; some
+// in coordinate planes.
 template <class Visit>
 void forTriangles(int count, Visit visit) {
   Rng rng(5);
@@ -29,7 +30,8 @@ void forTriangles(int count, Visit visit) {
     const float size = std::pow(10.F, 6 * rng.uniform() - 3);
     const float thin = std::pow(10.F, -7 * rng.uniform());
     const Vec3 where = uniform(rng) * size * std::pow(10.F, 4 * rng.uniform());
-    const Vec3 along = uniform(rng) * size, across = uniform(rng) * (size * thin);
+    Vec3 along = uniform(rng) * size, across = uniform(rng) * (size * thin);
+    if (const int axis = i % 6; axis < 3) along[axis] = across[axis] = 0;
     TriangleMesh mesh = triangle(where, where + along, where + rng.uniform() * along + across);
     transformMesh(mesh, {});
     if (mesh.triangles() == 1) visit(mesh, rng);
@@ -76,6 +78,17 @@ TEST(Mesh, ARayFromAHitDoesNotMeetItsOwnPlaneAgain) {
   });
   EXPECT_GE(rays, 1'000'000);
   EXPECT_EQ(again, 0);
+}
+
+TEST(Mesh, RaysFromASliverInACoordinatePlaneStayUnderTheRoof) {
+  // A board of 10 m by 6 mm, and light that must not come through a roof 5 mm above it.
+  const TriangleMesh board = triangle({-5, 0, -0.003F}, {5, 0, -0.003F}, {5, 0, 0.003F});
+  Rng rng(7);
+  for (int i = 0; i < 1000; ++i) {
+    const Point2 w = uniformTriangle({rng.uniform(), rng.uniform()});
+    const SurfaceInteraction s = meshSurface(board, {1, w.x, w.y, 0, 0}, false, false);
+    EXPECT_LT(spawnRay(s, {0, 1, 0}).o.y, 1e-4F);
+  }
 }
 
 TEST(Mesh, NoAcneOnATurnedGridFarAway) {
