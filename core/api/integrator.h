@@ -37,14 +37,6 @@ class Integrator {
   virtual const VolumeIntegrator* volume() const { return nullptr; }
 };
 
-// A camera ray, where it first meets the world (not found: it escapes), and whose numbers to use.
-struct CameraPath {
-  const RayDifferential* ray = nullptr;
-  Hit hit;
-  Sampler* sampler = nullptr;  // of this path alone
-  Spectrum L{0};               // the result: radiance that arrives at the ray's origin against it
-};
-
 // Integrators that estimate the light along one camera ray at a time. The core's loop over tiles
 // makes the samples, traces the camera rays in packets and adds the results to the film.
 class SamplingIntegrator : public Integrator {
@@ -59,9 +51,6 @@ class SamplingIntegrator : public Integrator {
   // Called from many threads at once; sampler and scratch are the thread's own.
   virtual Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit,
                       Sampler& sampler, Scratch& scratch) const = 0;
-  // The same for up to World::kBatch rays of neighbouring pixels, for integrators that can follow
-  // them side by side: near paths may share packets of rays. Default: one after the other.
-  virtual void Li(const World& world, std::span<CameraPath> paths, Scratch& scratch) const;
 };
 
 // What the regions of a scene (pbrt-v1, v2) make of the light that another integrator finds. Its

@@ -39,7 +39,6 @@ struct Worker {
   std::array<CameraRay, kBatch> cameraRays;
   std::array<const Ray*, kBatch> rays{};
   std::array<Hit, kBatch> hits;
-  std::array<CameraPath, kBatch> paths;  // of the rays that the camera lets through
   std::array<std::byte, 1 << 14> memory;
   Scratch scratch{memory.data(), memory.size()};
 };
@@ -78,20 +77,14 @@ struct TileJob {
       }
     const auto count = static_cast<std::size_t>(n);
     world.intersect({worker.rays.data(), count}, {worker.hits.data(), count});
-    std::size_t through = 0;
-    for (int i = 0; i < n; ++i)
-      if (worker.cameraRays[i].weight > 0)
-        worker.paths[through++] = {&worker.cameraRays[i].ray, worker.hits[i],
-                                   worker.samplers[i].get()};
-    integrator.Li(world, {worker.paths.data(), through}, worker.scratch);
-    worker.scratch.release();
-    const CameraPath* path = worker.paths.data();
     for (int i = 0; i < n; ++i) {
       const CameraRay& camera = worker.cameraRays[i];
       const Hit& hit = worker.hits[i];
       Spectrum L(0);
       if (camera.weight > 0) {
-        L = camera.weight * (path++)->L;
+        L = camera.weight *
+            integrator.Li(world, camera.ray, hit, *worker.samplers[i], worker.scratch);
+        worker.scratch.release();
         if (!isFinite(L)) {
           L = Spectrum(0);
           control.badSamples.fetch_add(1, std::memory_order_relaxed);
@@ -121,14 +114,6 @@ struct TileJob {
 };
 
 }  // namespace
-
-void SamplingIntegrator::Li(const World& world, std::span<CameraPath> paths,
-                            Scratch& scratch) const {
-  for (CameraPath& path : paths) {
-    path.L = Li(world, *path.ray, path.hit, *path.sampler, scratch);
-    scratch.release();
-  }
-}
 
 void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film& film,
                                 RenderControl& control) const {
