@@ -21,16 +21,6 @@ int beyond(const glm::dvec2& p, double distance, double first) {
   return n;
 }
 
-double mean(const Picture& picture) {
-  double sum = 0;
-  for (int y = 0; y < picture.height(); ++y)
-    for (int x = 0; x < picture.width(); ++x) {
-      const Spectrum& c = picture.pixel(x, y);
-      sum += (double{c.x} + c.y + c.z) / 3;
-    }
-  return sum / picture.width() / picture.height();
-}
-
 }  // namespace
 
 // The areas by which pi is divided are those of the square, of five triangles, of ten triangles
@@ -57,10 +47,19 @@ Aperture::Aperture(Params& p) {
   } else {
     shape_ = Shape::picture;
     picture_.emplace(p.file("aperture", "a picture"));
-    const double average = mean(*picture_);
-    if (!(average > 0)) p.fail("aperture", "is black: no light goes through");
-    scale_ = pi / (4 * average);
+    const double sum = integral();
+    if (!(sum > 0)) p.fail("aperture", "is black within the disc: no light goes through");
+    scale_ = pi / sum;
   }
+}
+
+// By the midpoints of squares no larger than the picture's pixels.
+double Aperture::integral() const {
+  const int w = std::max(256, picture_->width()), h = std::max(256, picture_->height());
+  double sum = 0;
+  for (int y = 0; y < h; ++y)
+    for (int x = 0; x < w; ++x) sum += through({(2.0 * x + 1) / w - 1, (2.0 * y + 1) / h - 1});
+  return sum * 4 / w / h;
 }
 
 double Aperture::through(const glm::dvec2& p) const {

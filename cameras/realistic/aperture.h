@@ -19,6 +19,8 @@ class Aperture {
   double through(const glm::dvec2& p) const;
 
  private:
+  double integral() const;  // of a picture
+
   enum class Shape : std::uint8_t { circle, gaussian, square, pentagon, star, picture };
 
   Shape shape_ = Shape::circle;

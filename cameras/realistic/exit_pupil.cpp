@@ -1,12 +1,14 @@
 #include "cameras/realistic/exit_pupil.h"
 
+#include <algorithm>
+
 namespace pbrt {
 
 namespace {
 
-constexpr int kSteps = 64;
+constexpr int kSteps = 96;
 constexpr int kScan = 256;     // steps across the last surface
-constexpr double kPad = 0.03;  // of the size: what lies between columns and between film points
+constexpr double kPad = 0.03;  // of the size: what lies between columns
 
 // Of the columns, from 0 to 1.
 const auto kPlaces = [] {
@@ -41,12 +43,28 @@ double PupilOutline::x(int column) const {
 PupilOutline PupilOutline::between(const PupilOutline& a, const PupilOutline& b, double t) {
   if (a.empty() != b.empty()) return a.empty() ? b : a;
   PupilOutline outline(lerp(t, a.x0_, b.x0_), lerp(t, a.x1_, b.x1_));
-  const double pad = 0.5 * kPad * outline.width();
-  outline.x0_ -= pad;
-  outline.x1_ += pad;
-  for (std::size_t i = 0; i <= kColumns; ++i)
-    outline.y_[i] = (1 + kPad) * lerp(t, a.y_[i], b.y_[i]);
+  for (std::size_t i = 0; i <= kColumns; ++i) outline.y_[i] = lerp(t, a.y_[i], b.y_[i]);
   return outline;
+}
+
+// Heights over the width w are concave. So what is shifted by pad.x is at a column of the wider
+// outline at most 1 + 2 pad.x / w times as high as the column was, nor higher than the highest.
+PupilOutline PupilOutline::padded(const glm::dvec2& pad) const {
+  if (empty()) return {};
+  const double end = 0.5 * kPad * width() + pad.x;
+  PupilOutline outline(x0_ - end, x1_ + end);
+  const double grown = 1 + 2 * pad.x / width(), highest = *std::ranges::max_element(y_);
+  for (std::size_t i = 0; i <= kColumns; ++i)
+    outline.y_[i] = (1 + kPad) * std::min(highest, grown * y_[i]) + pad.y;
+  return outline;
+}
+
+glm::dvec2 PupilOutline::gap(const PupilOutline& a, const PupilOutline& b) {
+  if (a.empty() || b.empty()) return glm::dvec2(0);
+  glm::dvec2 largest(std::max(std::abs(a.x0_ - b.x0_), std::abs(a.x1_ - b.x1_)), 0);
+  for (std::size_t i = 0; i <= kColumns; ++i)
+    largest.y = std::max(largest.y, std::abs(a.y_[i] - b.y_[i]));
+  return largest;
 }
 
 double PupilOutline::area() const {
@@ -68,9 +86,15 @@ glm::dvec2 PupilOutline::sample(Point2 u) const {
   return {x(i) + t * width, (2 * double{u.y} - 1) * lerp(t, b, e)};
 }
 
+// What is missed between two film points does not shrink with the stop. Of a curve it is most in
+// the middle of the interval, of a bend anywhere at most twice what it is there.
 ExitPupil::ExitPupil(const Lens& lens, double filmDistance, double farthest)
     : lens_(lens), distance_(filmDistance), perMm_(kSteps / farthest) {
   for (int i = 0; i <= kSteps; ++i) outlines_.push_back(find(i / perMm_));
+  for (std::size_t i = 0; i < kSteps; ++i)
+    pads_.push_back(2.0 *
+                    PupilOutline::gap(find((static_cast<double>(i) + 0.5) / perMm_),
+                                      PupilOutline::between(outlines_[i], outlines_[i + 1], 0.5)));
 }
 
 PupilOutline ExitPupil::at(double radius) const {
@@ -78,7 +102,8 @@ PupilOutline ExitPupil::at(double radius) const {
   if (!(place < kSteps)) return possible(radius);
   const auto step = static_cast<std::size_t>(place);
   return PupilOutline::between(outlines_[step], outlines_[step + 1],
-                               place - static_cast<double>(step));
+                               place - static_cast<double>(step))
+      .padded(pads_[step]);
 }
 
 bool ExitPupil::passes(double filmX, double x, double y) const {

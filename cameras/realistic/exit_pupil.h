@@ -19,8 +19,12 @@ class PupilOutline {
   // Nothing.
   PupilOutline() = default;
   PupilOutline(double x0, double x1) : x0_(x0), x1_(x1) {}
-  // Between those of two film points, t of the way; larger by what may lie between columns.
+  // Between those of two film points, t of the way; that which is not empty, if only one is.
   static PupilOutline between(const PupilOutline& a, const PupilOutline& b, double t);
+  // Larger by what may lie between columns, and by `pad` on either side in x and y.
+  PupilOutline padded(const glm::dvec2& pad) const;
+  // How far apart their ends (x) and heights (y) are at most; 0 if either is empty.
+  static glm::dvec2 gap(const PupilOutline& a, const PupilOutline& b);
 
   bool empty() const { return x0_ > x1_; }
   double width() const { return x1_ - x0_; }
@@ -61,6 +65,7 @@ class ExitPupil {
   const Lens& lens_;
   double distance_, perMm_;
   std::vector<PupilOutline> outlines_;  // of film points at equal steps
+  std::vector<glm::dvec2> pads_;        // of the intervals between them, in mm
 };
 
 }  // namespace pbrt

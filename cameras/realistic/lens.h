@@ -21,8 +21,6 @@ struct LensRay {
 // a y + b u and c y + d u on the first one, for light from the film.
 struct Paraxial {
   double a = 1, b = 0, c = 0, d = 1;
-
-  double focalLength() const { return -1 / c; }
 };
 
 class Lens {

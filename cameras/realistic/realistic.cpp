@@ -50,6 +50,8 @@ class RealisticCamera final : public Camera {
     const bool timed =
         p.flag("timeweighting", true, "without simpleweighting: twice the time, twice the light");
     if (!(open_ <= close_)) p.fail("shutterclose", "must not be before shutteropen");
+    if (!simple_ && timed && open_ == close_)
+      p.warn("shutterclose", "equals shutteropen: with timeweighting no light is gathered");
     if (p.describing()) return;
     if (pupil_.axialSquare() == 0)
       p.fail("lensfile", "is a lens that lets no light through to the film's middle");

@@ -24,12 +24,14 @@ enum Aov : AovSet {
   kUv = 64,            // u, v: its parameters, by which textures are placed
   kTrueNormal = 128,   // Ng.X, .Y, .Z: its geometric normal in world space, outward
   kDerivatives = 256,  // dPdu.X, .Y, .Z and dPdv.X, .Y, .Z: of its place in world space
-  kShape = 512,        // shape: which shape or instance it is, from 1 in the order of the scene
+  kShape = 512,        // shape: which shape or instance it is, from 1 in the order of the scene;
+                       // a float: beyond 2^24 neighbours share numbers
 };
 inline constexpr AovSet kEveryAov = ~AovSet{0};
 
-// Those that tell of the surface that is seen.
+// Those of the surface that few ask for.
 inline constexpr AovSet kOfDetail = kUv | kTrueNormal | kDerivatives | kShape;
+// Those that tell of the surface that is seen.
 inline constexpr AovSet kOfSurface = kAlbedo | kNormal | kPosition | kDepth | kOfDetail;
 
 // In the order of the bits: variance, albedo, normal, position, depth, samples, uv,

@@ -91,11 +91,40 @@ TEST(RealisticCamera, SaysWhatIsWrongWithALens) {
            {number("nosuch", 1)},
        })
     EXPECT_NE(message(good, bad), "no error") << bad.front().name;
+  // White where the disc of the stop does not reach: in its corners.
+  const std::string black(4 * 8, '\0'), white("\0\0\x80\x3f", 4);
+  const std::string row = white + std::string(4 * 14, '\0') + white;
+  std::string rows;
+  for (int y = 0; y < 16; ++y) rows += y % 15 == 0 ? row : black + black;
+  folder.write("corners.pfm", "Pf\n16 16\n-1\n" + rows);
+  EXPECT_NE(message(good, {text("aperture", (folder.path() / "corners.pfm").string())})
+                .find("no light goes through"),
+            std::string::npos);
   EXPECT_THROW(test::make<Camera>("realistic", {}, {{}, {9, 9}}), Error);
   EXPECT_THROW(test::lensCamera("no-such-file.dat"), Error);
   EXPECT_THROW(test::make<Camera>("realistic",
                                   {text("lensfile", test::kDoubleGauss), number("unit", 0)}, {}),
                Error);
+}
+
+// A picture that would be black for a reason that is not to be seen in it.
+TEST(RealisticCamera, WarnsOfAShutterThatGathersNoLight) {
+  const auto warnings = [](const ParamList& more) {
+    ParamList list = more;
+    list.push_back(text("lensfile", test::kDoubleGauss));
+    std::vector<std::string> said;
+    Params params("realistic", {}, {&list}, nullptr,
+                  [&](const Diagnostic& d) { said.push_back(d.message); });
+    create<Camera>(test::loader().open(kindOf<Camera>, "realistic"), params,
+                   Camera::Setup{{}, {90, 60}, 43.27F});
+    return said;
+  };
+  const Param shut = number("shutterclose", 0), full = test::flag("simpleweighting", false);
+  ASSERT_EQ(warnings({shut, full}).size(), 1U);
+  EXPECT_NE(warnings({shut, full})[0].find("no light"), std::string::npos);
+  for (const ParamList& fine :
+       std::vector<ParamList>{{full}, {shut}, {shut, full, test::flag("timeweighting", false)}})
+    EXPECT_TRUE(warnings(fine).empty());
 }
 
 // Lenses of which nothing can be seen, or of which all must be searched for: an answer, and soon.
