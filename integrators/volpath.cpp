@@ -129,17 +129,17 @@ class VolPath final : public SamplingIntegrator {
           return L;
         }
         at = world.surface(ray, hit);
-        if (!at.material) {
-          media.leave(at, ray.d);
-          static_cast<Ray&>(ray) = spawnRay(at, ray.d);
-          hit = world.intersect(ray);
-          continue;
-        }
         if (at.light) {
           const Spectrum emitted = at.light->emitted(at.p, at.n, at.wo);
           if (!isBlack(emitted))
             L += throughput * emitted *
                  (pdf == 0 ? 1 : weight(*at.light, at.light->pdf(choice.point(), at)));
+        }
+        if (!at.material) {
+          media.leave(at, ray.d);
+          static_cast<Ray&>(ray) = spawnRay(at, ray.d);
+          hit = world.intersect(ray);
+          continue;
         }
       }
       if (bounce == params_.maxDepth) return L;

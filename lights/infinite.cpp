@@ -63,7 +63,7 @@ class Infinite final : public Light {
         cells_(picture_.width(), weights(picture_, map_)),
         total_(integral(picture_, map_)) {
     L_ *= readLightScale(p);
-    L_ *= readTotal(p, "illuminance", illuminance(),
+    L_ *= readTotal(p, "illuminance", p.has("illuminance") ? illuminance() : 1,
                     "of a surface that faces +z of the light's space, for L = 1; instead of the "
                     "picture's own",
                     "lx");

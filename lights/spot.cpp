@@ -16,8 +16,12 @@ class Spot final : public Light {
                                   "width of the soft edge, inside the cone", "degrees");
     cosEnd_ = std::cos(radians(cone));
     cosStart_ = std::cos(radians(cone - delta));
-    // The fourth power has the mean 1/5 over the soft edge.
-    angle_ = 2 * kPi * (1 - cosStart_ + (cosStart_ - cosEnd_) / 5);
+    constexpr std::string_view falloffs[] = {"quartic", "smoothstep"};
+    smooth_ = p.choice("falloff", falloffs, "quartic",
+                       "over the soft edge: the fourth power, or 3 x^2 - 2 x^3 as in pbrt-v4") ==
+              "smoothstep";
+    // The fourth power has the mean 1/5 over the soft edge, the other 1/2.
+    angle_ = 2 * kPi * (1 - cosStart_ + (cosStart_ - cosEnd_) * (smooth_ ? 0.5F : 0.2F));
     intensity_ *= readTotal(p, "power", angle_, "flux of the whole cone, for I = 1", "lm");
 
     const Point3 from = p.point("from", Point3(0), "where it is");
@@ -62,13 +66,14 @@ class Spot final : public Light {
     return cone;
   }
 
-  // From 1 inside the soft edge to 0 at the end of the cone, by the fourth power of how far the
-  // cosine has come. The angle is that of light space.
+  // From 1 inside the soft edge to 0 at the end of the cone, by how far the cosine has come. The
+  // angle is that of light space.
   float falloff(const Vec3& w) const {
     const float c = glm::dot(axis_, glm::normalize(toLight_ * w));
     if (!(c > cosEnd_)) return 0;
     if (c >= cosStart_) return 1;
-    return sqr(sqr((c - cosEnd_) / (cosStart_ - cosEnd_)));
+    const float x = (c - cosEnd_) / (cosStart_ - cosEnd_);
+    return smooth_ ? sqr(x) * (3 - 2 * x) : sqr(sqr(x));
   }
 
   Spectrum intensity_;
@@ -76,7 +81,8 @@ class Spot final : public Light {
   Vec3 axis_{};  // unit, in light space
   Point3 position_{};
   float cosStart_ = 1, cosEnd_ = 1;
-  float angle_ = 0;  // solid angle, weighted by the falloff
+  bool smooth_ = false;  // the falloff, smoothstep
+  float angle_ = 0;      // solid angle, weighted by the falloff
   DirectionCone cone_;
 };
 

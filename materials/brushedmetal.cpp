@@ -3,8 +3,8 @@
 
 namespace pbrt {
 
-// The coefficients, fitted to measurements, are pbrt-v1's. By them alone it would send back 1.6 times
-// the light that comes at 82 degrees; LafortuneModel takes that back.
+// The coefficients, fitted to measurements, are pbrt-v1's. By them alone it would send back 1.6
+// times the light that comes at 82 degrees; LafortuneModel takes that back.
 class BrushedMetal final : public LafortuneMaterial {
  public:
   explicit BrushedMetal(Params& p) : LafortuneMaterial(p, kFit) {}

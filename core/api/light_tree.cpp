@@ -41,6 +41,7 @@ DirectionCone merged(const DirectionCone& a, const DirectionCone& b) {
 
 LightBounds merged(const LightBounds& a, const LightBounds& b) {
   if (a.box.empty()) return b;
+  if (b.box.empty()) return a;
   LightBounds sum = a;
   sum.box.add(b.box);
   sum.intensity += b.intensity;
@@ -136,7 +137,7 @@ std::uint32_t LightTree::build(std::span<Leaf> leaves, std::uint32_t parent, int
     LightBounds left, right;
     for (int i = 0; i + 1 < kBuckets; ++i) costs[i] = cost(left = merged(left, buckets[i]));
     for (int i = kBuckets - 1; i > 0; --i) {
-      if (!buckets[i].box.empty()) right = merged(right, buckets[i]);
+      right = merged(right, buckets[i]);
       costs[i - 1] += cost(right);
     }
     for (int i = 0; i + 1 < kBuckets; ++i)

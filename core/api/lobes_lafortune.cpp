@@ -17,20 +17,26 @@ Vec3 cosinePower(const Vec3& axis, float n, Point2 u) {
   return Frame::fromZ(axis).fromLocal({s * std::cos(phi), s * std::sin(phi), c});
 }
 
-// Its integral is |q|^n 2 pi / (n + 1) times the mean of what those directions are above the
-// surface.
+// Of f and the cosine to the normal, over the directions above the surface: they are chosen with
+// the density of cosinePower() about q, or about its shadow on the surface where q is below. To
+// these the integral is 2 pi / (n + 1) times the mean of w.z (q.w / axis.w)^n; about q itself that
+// ratio is |q|.
 float integral(const GeneralizedCosine& lobe, int colour, float cosTheta) {
   constexpr int k = 24;
   const float n = lobe.exponent[colour];
   const Vec3 q = axis(lobe, colour, {std::sqrt((1 - cosTheta) * (1 + cosTheta)), 0, cosTheta});
-  const float height = glm::length(q);
+  const Vec3 about(q.x, 0, std::max(0.F, q.z));
+  if (!(lengthSquared(about) > 0)) return 0;
+  const Vec3 unit = glm::normalize(about);
   float sum = 0;
   for (int i = 0; i < k; ++i)
     for (int j = 0; j < k; ++j) {
       const Point2 u((static_cast<float>(i) + 0.5F) / k, (static_cast<float>(j) + 0.5F) / k);
-      sum += std::max(0.F, cosinePower(q / height, n, u).z);
+      const Vec3 w = cosinePower(unit, n, u);
+      const float ratio = std::max(0.F, glm::dot(q, w) / glm::dot(unit, w));
+      sum += std::max(0.F, w.z) * std::pow(ratio, n);
     }
-  return std::pow(height, n) * 2 * kPi / (n + 1) * sum / (k * k);
+  return 2 * kPi / (n + 1) * sum / (k * k);
 }
 
 }  // namespace

@@ -13,11 +13,11 @@ inline Spectrum readLightScale(Params& p) {
 
 // A positive number that pbrt-v4 gives instead of a light's strength: what a white light of colour
 // 1 would have it divided by `ofOne`, by which the light is to be multiplied. 1 if it is absent or,
-// as pbrt-v4 has it, not positive.
+// as pbrt-v4 has it, not positive; or if the light is black, or too dark to be multiplied so far.
 inline float readTotal(Params& p, const std::string& name, float ofOne, std::string_view meaning,
                        std::string_view unit) {
   const float total = p.optionalNumber(name, meaning, unit).value_or(0);
-  return total > 0 ? total / ofOne : 1;
+  return total > 0 && std::isfinite(total / ofOne) ? total / ofOne : 1;
 }
 
 // Of a point at `p` that shines into the directions of the cone with this intensity.

@@ -55,10 +55,25 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes, Tr
   addShape(d, attributes, Transform(), *moving.back().group);
 }
 
+// Whether the shape gives light. Without a material it cannot in pbrt-v4; in v3 it does so, and
+// lets light pass, for integrators that see such shapes at all.
+bool SceneBuilder::shines(const Directive& shape, const Attributes& attributes) {
+  if (!attributes.areaLight) return false;
+  if (!attributes.material->isInterface()) return true;
+  if (factory_.dialect() < Dialect::v4 && scene_->integrator_->tracesMedia()) return true;
+  factory_.report(Severity::warning, shape.where,
+                  factory_.dialect() == Dialect::v4
+                      ? "a shape without a material gives no light"
+                      : "this integrator sees no shape without a material: it gives no light "
+                        "(\"volpath\" sees it)");
+  return false;
+}
+
 void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
                             const Transform& toGroup, Group& group) {
   const MediumInterface* media = mediaOf(attributes);
-  if (attributes.material->isInterface() && !attributes.areaLight && !media) return;
+  const bool lit = shines(d, attributes);
+  if (attributes.material->isInterface() && !lit && !media) return;
   auto g = std::make_unique<Geometry>();
 
   const std::string& name = d.words.at(0);
@@ -82,7 +97,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
     transformMesh(*g->mesh, toGroup);
     g->toGroup = Transform();
   }
-  if (attributes.areaLight) {
+  if (lit) {
     if (&group == &scene_->root_)
       factory_.attempt([&] { addAreaLight(attributes, d, toGroup, *g); });
     else
@@ -99,15 +114,12 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
   ++scene_->shapes_;
 }
 
-// The material of a shape; null if it is but the border of media. What the shape does not know may
-// be meant for it.
+// The material of a shape; null if it has none. What the shape does not know may be meant for it.
 std::shared_ptr<const Material> SceneBuilder::materialFor(const Params& shape,
                                                           const Attributes& attributes) {
   if (attributes.material->isInterface()) {
     factory_.attempt([&] { shape.refuseUnread(); });
-    if (!attributes.areaLight) return nullptr;
-    return factory_.make<Material>(
-        "matte", {{ParamType::rgb, "Kd", {}, {}, std::vector<float>{0, 0, 0}}}, shape.where());
+    return nullptr;
   }
   ParamList overrides;
   for (const Param* param : shape.unread()) overrides.push_back(*param);

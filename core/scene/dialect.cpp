@@ -175,6 +175,7 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV1 | kV2, texture, "imagemap", {text("origin", "upper"), flag("gamma", false)}},
       {kV4, texture, "imagemap", {text("filter", "bilinear")}},
       {kV4, light, "projection", {number("fov", 90)}},
+      {kV4, light, "spot", {text("falloff", "smoothstep")}},
       {kV1, camera, "perspective", {number("hither", 1e-3F)}},
       {kV1, camera, "orthographic", {number("hither", 1e-3F)}},
       {kV1, camera, "environment", {number("hither", 1e-3F)}},

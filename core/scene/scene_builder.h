@@ -98,6 +98,7 @@ class SceneBuilder {
                 Shapes& shapes);
   void addShape(const Directive& d, const Attributes& attributes, const Transform& toGroup,
                 Group& group);
+  bool shines(const Directive& shape, const Attributes& attributes);
   Group& addGroup();
   std::shared_ptr<const Material> materialFor(const Params& shape, const Attributes& attributes);
   void addAreaLight(const Attributes& attributes, const Directive& shape, const Transform& toRender,

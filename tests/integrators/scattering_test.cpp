@@ -232,5 +232,32 @@ TEST(Scattering, SurfacesAreLitThroughRegions) {
   }
 }
 
+// pbrt-v3's shapes without a material may shine, and let light pass. A wall that is 2 away from a
+// disk of radius 1, on its axis, receives pi L / 5 of it, and what a lamp behind it sends.
+TEST(Scattering, SurfacesWithoutMaterialShine) {
+  const std::string world =
+      "LightSource \"point\" \"point from\" [0 0 -3] \"rgb I\" [50 50 50]\n"
+      "AttributeBegin Material \"matte\" \"rgb Kd\" [.5 .5 .5] Translate 0 0 2 "
+      "Shape \"disk\" \"float radius\" 9 AttributeEnd\n"
+      "AttributeBegin Material \"\" AreaLightSource \"diffuse\" \"rgb L\" [3 3 3] "
+      "Shape \"disk\" AttributeEnd\n";
+  const double lamp = 0.5 / std::numbers::pi * 50 / 25, disk = 0.5 * 3 / 5;
+  for (const bool media : {true, false}) {
+    std::string said;
+    BuildOptions options;
+    options.report = [&](const Diagnostic& d) { said += d.message; };
+    const std::string integrator = media ? "\"volpath\" \"integer maxdepth\" 1" : "\"path\"";
+    const Colour seen = measure(scene(kView, integrator, world, 100), options);
+    EXPECT_NEAR(seen.mean.y, lamp + (media ? disk : 0), kSigmas * seen.error.y + 1e-5);
+    EXPECT_EQ(said.empty(), media) << said;
+  }
+  // From the other side, before a sky of 1.
+  const Colour seen = measure(scene("0 0 5 0 0 0 0 1 0", "\"volpath\"",
+                                    "LightSource \"infinite\" Material \"none\" AreaLightSource "
+                                    "\"diffuse\" \"rgb L\" [3 3 3] Shape \"disk\"",
+                                    8));
+  EXPECT_NEAR(seen.mean.y, 4, 1e-5);
+}
+
 }  // namespace
 }  // namespace pbrt

@@ -50,5 +50,17 @@ TEST(Goniometric, PowerIsTheFlux) {
   EXPECT_NEAR(flux(*make<Light>("goniometric"), 2), 4 * std::numbers::pi, 0.01);
 }
 
+// No factor makes a flux of nothing.
+TEST(Goniometric, BlackStaysBlackWhateverItsPower) {
+  const Folder folder;
+  for (const float grey : {0.F, 1e-40F}) {
+    const std::string file = greyPicture(folder, "a.exr", 2, {grey, grey, 0, 0});
+    const auto light = make<Light>("goniometric", {text("mapname", file), number("power", 7)});
+    EXPECT_NEAR(light->power(1), 0, 1e-30);
+    EXPECT_NEAR(towards(*light, {0, 2, 0}), 0, 1e-30);
+    EXPECT_EQ(towards(*light, {0, -2, 0}), 0);
+  }
+}
+
 }  // namespace
 }  // namespace pbrt::test

@@ -163,6 +163,16 @@ TEST_F(Infinite, Illuminance) {
   EXPECT_EQ(make<Light>("infinite", {number("illuminance", -1)})->escaped({0, 0, 1}), Spectrum(1));
 }
 
+// Where the half about +z is black, no factor gives it its illuminance.
+TEST_F(Infinite, DarkHalvesStayDark) {
+  const std::string file = greyPicture(folder, "h.exr", 2, {0, 0, 0, 0, 0, 0, 1, 1});
+  const auto plain = make<Light>("infinite", {text("mapname", file)});
+  const auto light = make<Light>("infinite", {text("mapname", file), number("illuminance", 5)});
+  EXPECT_EQ(light->power(1), plain->power(1));
+  EXPECT_EQ(light->escaped({0, 0, 1}), Spectrum(0));
+  EXPECT_EQ(light->escaped({0, 0, -1}), Spectrum(1));
+}
+
 TEST_F(Infinite, BlackPicturesGiveNoSamples) {
   const auto light =
       make<Light>("infinite", {text("mapname", greyPicture(folder, "b.exr", 2, {0, 0, 0, 0}))});

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kDisk = 1.5;  // the radius of the area lights
 
-// Every light as it is by default, and with a picture if it takes one.
+// Every light as it is by default, and in other ways that it may have.
 template <class Check>
 void forEveryLight(Check check) {
   const DiskSampler disk(kDisk);
@@ -23,7 +23,10 @@ void forEveryLight(Check check) {
   const std::string file = greyPicture(folder, "a.exr", 24, values);
   int made = 0;
   for (const std::string& name : loader().available(PluginKind::light))
-    for (const ParamList& list : {ParamList{}, {flag("twosided", true)}, {text("mapname", file)}}) {
+    for (const ParamList& list : {ParamList{},
+                                  {flag("twosided", true)},
+                                  {text("mapname", file)},
+                                  {text("falloff", "smoothstep")}}) {
       SCOPED_TRACE(name + (list.empty() ? "" : " " + list[0].name));
       std::unique_ptr<Light> light;
       try {
@@ -34,7 +37,7 @@ void forEveryLight(Check check) {
       ++made;
       check(*light);
     }
-  EXPECT_GE(made, 11);
+  EXPECT_GE(made, 12);
 }
 
 // Of the disk, where the ray from p along w meets it.

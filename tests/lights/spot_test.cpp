@@ -33,6 +33,20 @@ TEST(Spot, FalloffIsTheFourthPowerOfTheCosine) {
   }
 }
 
+// pbrt-v4's: level at both ends of the soft edge, and point symmetric about its middle.
+TEST(Spot, SmoothstepIsACubicOfTheCosine) {
+  const auto light = make<Light>("spot", {number("coneangle", 40), number("conedeltaangle", 15),
+                                          text("falloff", "smoothstep")});
+  const double begin = std::cos(std::numbers::pi * 25 / 180);
+  const double end = std::cos(std::numbers::pi * 40 / 180);
+  for (double x = 0.02; x < 1; x += 0.02) {
+    const double degrees = std::acos(end + x * (begin - end)) * 180 / std::numbers::pi;
+    EXPECT_NEAR(share(*light, degrees), x * x * (3 - 2 * x), 1e-5) << x;
+  }
+  EXPECT_FLOAT_EQ(share(*light, 24.99), 1);
+  EXPECT_EQ(share(*light, 40.01), 0);
+}
+
 TEST(Spot, DefaultsAreThirtyAndFive) {
   const auto light = make<Light>("spot");
   EXPECT_FLOAT_EQ(share(*light, 24.9), 1);
@@ -86,11 +100,13 @@ TEST(Spot, RefusesWhatIsNoCone) {
 }
 
 TEST(Spot, Power) {
-  for (const float delta : {0.F, 40.F, 80.F}) {
-    const auto light = make<Light>(
-        "spot", {number("coneangle", 80), number("conedeltaangle", delta), number("power", 6)});
-    EXPECT_NEAR(flux(*light, 1), 6, 0.05) << delta;
-  }
+  for (const char* falloff : {"quartic", "smoothstep"})
+    for (const float delta : {0.F, 40.F, 80.F}) {
+      const auto light = make<Light>("spot", {number("coneangle", 80), text("falloff", falloff),
+                                              number("conedeltaangle", delta), number("power", 6)});
+      EXPECT_NEAR(flux(*light, 1), 6, 0.05) << falloff << delta;
+      EXPECT_NEAR(light->power(1), 6, 1e-5);
+    }
 }
 
 }  // namespace

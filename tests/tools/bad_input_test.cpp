@@ -128,9 +128,6 @@ const Case kCases[] = {
      "\"raduis\"[^]*\"zmni\""},
     {"TypoInMaterial", world("Material \"matte\" \"rgb Kdd\" [1 1 1]\n" + kSphere), 3,
      "scene.pbrt:9:\\d+: error: materials/matte: \"Kdd\" is not .*\"Kd\""},
-    {"TypoInLampWithoutSurface",
-     world("Material \"\"\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float raduis\" 2"), 3,
-     "scene.pbrt:11:16: error: shapes/sphere: \"raduis\" is not a parameter of it"},
     {"TypoInTexture",
      world("Texture \"t\" \"color\" \"checkerboard\" \"float uscael\" [1]\n"
            "Material \"matte\" \"texture Kd\" \"t\"\n" +

@@ -139,6 +139,19 @@ TEST(LightTree, WhatCannotSendLightIsNotChosen) {
   EXPECT_GT(tree.chance(Point3(0), Normal3(0), 1), 0.99);
 }
 
+// Two spots and another one far away, all turned alike: the two belong together, though there is
+// nothing between them. Under a node each, the one that the far one shares its node with would have
+// the chance of that node as a whole.
+TEST(LightTree, GapsDoNotPartNeighbours) {
+  Lights lights;
+  for (const Point3 p : {Point3(0), Point3(3, 0.1F, 0), Point3(10, 0.2F, 0)})
+    lights.add({{p, p}, 1, {{0, 0, 1}, 0.5F}});
+  const LightTree tree = lights.tree();
+  const Point3 between(1.5F, 0.05F, 1);
+  EXPECT_NEAR(tree.chance(between, Normal3(0), 0), 0.5, 1e-5);
+  EXPECT_NEAR(tree.chance(between, Normal3(0), 1), 0.5, 1e-5);
+}
+
 TEST(LightTree, NeitherTheNearNorTheFarIsLeftOut) {
   Lights lights;
   lights.add(pointAt({0, 0, 1}, 1));

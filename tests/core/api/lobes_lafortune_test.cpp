@@ -91,5 +91,24 @@ TEST(Lafortune, LobesKnowTheirAlbedo) {
   }
 }
 
+// Where q is below the surface, what is above is but the flank of the lobe. A lobe whose weight
+// were 0 there would never be sampled.
+TEST(Lafortune, LobesBelowTheSurfaceHaveWeight) {
+  for (const float exponent : {3.F, 9.F, 25.F}) {
+    LafortuneFit fit;
+    fit.lobes[0] = {Spectrum(-1.1F), Spectrum(-1.4F), Spectrum(exponent)};
+    const LafortuneModel model(fit);
+    for (const int j : {1, 16, 32, 48, 60, 62}) {
+      const float c = static_cast<float>(j) / 64;  // where the model has it
+      const double expected = albedo(fit, 0, c);
+      const float weight = LafortuneLobe(model, 0).weight({safeSqrt(1 - c * c), 0, c});
+      EXPECT_GT(weight, 0) << c;
+      if (expected > 1e-9) {
+        EXPECT_NEAR(weight, expected, 0.15 * expected) << c;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace pbrt

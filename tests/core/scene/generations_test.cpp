@@ -138,6 +138,30 @@ TEST(V4, OptionSetsTheSeedUnlessTheCommandLineDoes) {
                        "\"forcediffuse\" has no effect"));
 }
 
+// Half way over the soft edge, by the cosine: 1/2, and by the fourth power 1/16.
+TEST(V4, TheEdgeOfASpotIsSmoothstep) {
+  const auto lamp = [](Dialect dialect) {
+    const std::string statement =
+        "LightSource \"spot\" \"float coneangle\" 90 \"float conedeltaangle\" 90";
+    const bool v4 = dialect == Dialect::v4;
+    const auto scene = test::buildText(v4 ? "Film \"rgb\" WorldBegin " + statement
+                                          : "Film \"image\" Integrator \"path\" WorldBegin " +
+                                                statement + " WorldEnd");
+    const float x = std::sqrt(0.75F);
+    return scene->lights()[0]->sample({x, 0, 0.5F}, {0, 0}).L.y /
+           scene->lights()[0]->sample({0, 0, 1}, {0, 0}).L.y;
+  };
+  EXPECT_NEAR(lamp(Dialect::v4), 0.5, 1e-4);
+  EXPECT_NEAR(lamp(Dialect::v3), 1 / 16.0, 1e-4);
+}
+
+TEST(V4, AnInterfaceGivesNoLight) {
+  const std::string lamp = "AreaLightSource \"diffuse\" Material \"interface\" Translate 0 0 1\n";
+  const Said all = said(v4(kRed + kDisk + lamp + kDisk), false);
+  EXPECT_TRUE(contains(all.warnings.at(0), "a shape without a material gives no light"));
+  expectColour(seen(v4(kRed + kDisk + lamp + kDisk)), {1, 0, 0});
+}
+
 TEST(V4, AnInterfaceIsNotSeen) {
   expectColour(seen(v4(kRed + kDisk + "Material \"interface\" Translate 0 0 1\n" + kDisk)),
                {1, 0, 0});

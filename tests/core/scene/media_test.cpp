@@ -144,6 +144,9 @@ TEST(Media, WhatIsWrongIsSaidWithItsPlace) {
                 "denser than can be told");
   expectFailure(volpath(medium("\"rgbgrid\" \"rgb Le\" [1 1 1]")), "needs \"sigma_a\"");
   expectFailure(volpath(medium("\"homogeneous\" \"float sgima\" 1")), "sgima");
+  expectFailure(volpath("Material \"\" AreaLightSource \"diffuse\" "
+                        "Shape \"disk\" \"float raduis\" 2"),
+                "\"raduis\" is not a parameter of it");
 
   expectFailure(regions("Volume \"volumegrid\" \"integer ny\" 3 \"float density\" [1 2]"),
                 "needs 1 x 3 x 1 = 3 values, not 2");
