@@ -16,8 +16,8 @@ class EnvironmentCamera final : public Camera {
               setup.toRender.vector({0, 0, 1})},
         resolution_(setup.resolution),
         map_(map(p)),
-        open_(p.number("shutteropen", 0, "when the shutter opens")),
-        close_(p.number("shutterclose", 1, "when the shutter closes")),
+        open_(p.number("shutteropen", 0, "when the shutter opens", "scene time")),
+        close_(p.number("shutterclose", 1, "when the shutter closes", "scene time")),
         near_(p.nonNegative("hither", 0, "what lies nearer is not seen", "scene units")),
         far_(p.positive("yon", kInfinity, "what lies farther is not seen", "scene units")) {
     if (!(open_ <= close_)) p.fail("shutterclose", "must not be before shutteropen");

@@ -78,10 +78,11 @@ class Infinite final : public Light {
   static SphereMap readMap(Params& p, const Picture& picture) {
     const bool square = picture.width() == picture.height() && picture.width() > 1;
     constexpr std::string_view maps[] = {"latlong", "equalarea"};
-    const std::string map = p.choice(
-        "mapping", maps, p.has("filename") && square ? "equalarea" : "latlong",
-        "how the sphere fills the picture; a square one given by \"filename\" is equalarea "
-        "if nothing is said");
+    const std::string map =
+        p.choice("mapping", maps, p.has("filename") && square ? "equalarea" : "latlong",
+                 "how the sphere fills the picture: by the angles to +z (the top row) and about "
+                 "it, or as pbrt-v4 has it (+z in the middle), which is the default of a square "
+                 "one given by \"filename\"");
     if (map == "equalarea" && picture.width() != picture.height())
       p.fail("mapping", "cannot be \"equalarea\": the picture is not square");
     return map == "equalarea" ? SphereMap::equalarea : SphereMap::latlong;

@@ -92,7 +92,7 @@ class BilinearMesh final : public Shape, public AreaSampler {
     indices_ = readIndices(p, 4, positions_.size());
     uv_ = p.points2("uv", "texture coordinates of the vertices");
     normals_ = p.normals("N", "shading normals of the vertices");
-    p.integers("faceIndices", "numbers of the faces for Ptex; not used");
+    p.integers("faceIndices", "each face's number in a Ptex file; not used, as there is no Ptex");
     if (!p.text("emissionfilename", "", "picture of what shines; not known yet").empty())
       p.warn("emissionfilename", "is not known yet: the shape shines evenly");
     if (p.describing()) return;

@@ -8,8 +8,8 @@ namespace pbrt {
 class Hyperboloid final : public SweptSegment {
  public:
   explicit Hyperboloid(Params& p)
-      : Hyperboloid(p, p.point("p1", {0, 0, 0}, "where the segment begins"),
-                    p.point("p2", {1, 1, 1}, "where it ends")) {}
+      : Hyperboloid(p, p.point("p1", {0, 0, 0}, "one end of the rod, in scene units"),
+                    p.point("p2", {1, 1, 1}, "its other end, in scene units")) {}
 
  private:
   Hyperboloid(Params& p, const Point3& p1, const Point3& p2) : SweptSegment(p1, p2, Sweep(p)) {

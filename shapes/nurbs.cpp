@@ -38,8 +38,10 @@ Axis readAxis(Params& p, const std::string& u) {
   if (!std::is_sorted(axis.knots.begin(), axis.knots.end())) p.fail(knots, "must never fall");
   const float lo = axis.knots[k - 1], hi = axis.knots[n];
   if (!(lo < hi)) p.fail(knots, "leave no range in which the patch is defined");
-  axis.begin = p.inRange(u + "0", lo, lo, hi, "where the patch begins along " + u);
-  axis.end = p.inRange(u + "1", hi, lo, hi, "where it ends");
+  axis.begin = p.inRange(u + "0", lo, lo, hi,
+                         "where the patch begins along " + u + ", in the numbers of " + knots +
+                             "; all of it if absent");
+  axis.end = p.inRange(u + "1", hi, lo, hi, "where it ends along " + u + ", likewise");
   if (!(axis.begin < axis.end)) p.fail(u + "1", "must be above " + u + "0");
   return axis;
 }

@@ -19,7 +19,7 @@ class TriangleMeshShape final : public MeshShape {
     auto st = p.points2("st", "another name for uv");
     const bool hasUv = !mesh_.uv.empty();
     if (!hasUv) mesh_.uv = std::move(st);
-    p.integers("faceIndices", "numbers of the faces for Ptex; not used");
+    p.integers("faceIndices", "each face's number in a Ptex file; not used, as there is no Ptex");
 
     checkVertices(p, "P", mesh_.positions, vertices);
     checkVertices(p, "N", mesh_.normals, vertices);

@@ -36,8 +36,8 @@ class RealisticCamera final : public Camera {
   RealisticCamera(Params& p, const Setup& setup)
       : unit_(p.positive("unit", 1e-3F, "what a millimetre of the lens is in the scene",
                          "scene units")),
-        open_(p.number("shutteropen", 0, "when the shutter opens")),
-        close_(p.number("shutterclose", 1, "when the shutter closes")),
+        open_(p.number("shutteropen", 0, "when the shutter opens", "scene time")),
+        close_(p.number("shutterclose", 1, "when the shutter closes", "scene time")),
         simple_(p.flag("simpleweighting", true,
                        "brightness is that of a pinhole on the axis; else what film gets")),
         lens_(readLens(p)),

@@ -22,7 +22,10 @@ class ScreenWindow {
                   kWidest, "width by height of the screen; from the resolution if absent");
     hi_ = aspect > 1 ? glm::dvec2(aspect, 1) : glm::dvec2(1, 1 / double{aspect});
     lo_ = -hi_;
-    const auto window = p.numbers("screenwindow", "the screen's x0 x1 y0 y1");
+    const auto window =
+        p.numbers("screenwindow",
+                  "left, right, lower and upper edge of the picture, whose shorter side is from -1 "
+                  "to 1 if absent: that is fov, or scene units if orthographic");
     if (window.empty()) return;
     if (window.size() != 4) p.fail("screenwindow", "needs 4 numbers: x0 x1 y0 y1");
     for (const float side : window)
@@ -65,8 +68,8 @@ class ProjectiveCamera : public Camera {
         x_(setup.toRender.vector({1, 0, 0})),
         y_(setup.toRender.vector({0, 1, 0})),
         z_(setup.toRender.vector({0, 0, 1})),
-        open_(p.number("shutteropen", 0, "when the shutter opens")),
-        close_(p.number("shutterclose", 1, "when the shutter closes")),
+        open_(p.number("shutteropen", 0, "when the shutter opens", "scene time")),
+        close_(p.number("shutterclose", 1, "when the shutter closes", "scene time")),
         lensRadius_(p.inRange("lensradius", 0, 0, kWidest, "0: all is sharp", "scene units")),
         focus_(
             p.positive("focaldistance", 1e6F, "what lies this far ahead is sharp", "scene units")),
