@@ -26,8 +26,9 @@ std::vector<float> readDensities(Params& p, const std::string& name, std::string
 }
 
 float readRadianceScale(Params& p) {
-  return p.nonNegative("radiancescale", 1,
-                       "multiplies it; pbrt-v4 counts as often as the integral of the CIE's y");
+  return p.nonNegative(
+      "radiancescale", 1,
+      "multiplies that radiance: pbrt-v4 does not divide it by the integral of the CIE's y");
 }
 
 MediumParams readMedium(Params& p) {

@@ -104,7 +104,7 @@ TEST(MediumLaws, EstimatesAgreeWithQuadrature) {
       const Way way = somewhere(rng);
       const Theory expected = theory(medium, way);
       std::array<Mean, 3> through, ratio, scattered, emitted;
-      for (int i = 0; i < 10000; ++i) {
+      for (int i = 0; i < 5000; ++i) {
         walk.start(&medium, {}, way.o, way.w, {0, way.length});
         const Spectrum T = estimateTransmittance(walk, rng);
         walk.start(&medium, {}, way.o, way.w, {0, way.length});
@@ -145,7 +145,7 @@ TEST(MediumLaws, TransmittanceMultiplies) {
       const double cut = 3 * rng.uniform();
       const DVec3 expected = theory(medium, way).transmittance * theory(other, way).transmittance;
       std::array<Mean, 3> whole, parts, through;
-      for (int i = 0; i < 10000; ++i) {
+      for (int i = 0; i < 5000; ++i) {
         const auto T = [&](double begin, double end) {
           walk.start(nullptr, regions, way.o, way.w, {begin, end});
           return estimateTransmittance(walk, rng);

@@ -29,6 +29,7 @@ class Counting final : public Medium {
 
 constexpr DPoint3 kStart{-1, 0.5, 0.5};
 constexpr DVec3 kAlongX{1, 0, 0};
+constexpr float kNothing = std::numeric_limits<float>::min();
 
 // Where red is opaque, nobody looks at each of its millions of collisions for green and blue.
 TEST(Tracking, OpaqueChannelsDoNotStopTheOthers) {
@@ -38,11 +39,14 @@ TEST(Tracking, OpaqueChannelsDoNotStopTheOthers) {
   Rng rng(1);
   for (int i = 0; i < 100; ++i) {
     walk.start(&medium, {}, kStart, kAlongX, {0, 3});
-    EXPECT_EQ(estimateTransmittance(walk, rng), Spectrum(0, 1, 1));
+    const Spectrum T = estimateTransmittance(walk, rng);
+    EXPECT_LT(T.x, kNothing);
+    EXPECT_EQ(T.y, 1);
+    EXPECT_EQ(T.z, 1);
     walk.start(&medium, {}, kStart, kAlongX, {0, 3});
     Spectrum throughput(1), L(0);
     const auto collision = collide(walk, rng.uniform(), rng, throughput, L);
-    EXPECT_EQ(throughput.x, 0);
+    EXPECT_LT(throughput.x, kNothing);
     EXPECT_EQ(throughput.y, collision ? 0 : throughput.z);
   }
   EXPECT_LT(medium.looks, 100 * 1000);
@@ -58,11 +62,11 @@ TEST(Tracking, OpaqueMediaMayOverlapThoseThatVary) {
     Rng rng(2);
     for (int i = 0; i < 100; ++i) {
       walk.start(nullptr, regions, kStart, kAlongX, {0, 3});
-      EXPECT_LE(estimateTransmittance(walk, rng).x, 1e-30F);
+      EXPECT_LT(estimateTransmittance(walk, rng).x, kNothing);
       walk.start(nullptr, regions, kStart, kAlongX, {0, 3});
       Spectrum throughput(1), L(0);
       collide(walk, rng.uniform(), rng, throughput, L);
-      EXPECT_LE(throughput.x, 1e-30F);
+      EXPECT_LT(throughput.x, kNothing);
     }
     EXPECT_LT(opaque.looks, 100 * 1000) << dense;
   }
