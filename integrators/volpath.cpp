@@ -21,7 +21,8 @@ namespace {
 // random numbers.
 class Media {
  public:
-  Media(const World& world, Sampler& sampler, Scratch& scratch)
+  // `ray`: the path's first.
+  Media(const World& world, const Ray& ray, Sampler& sampler, Scratch& scratch)
       : world_(world),
         any_(world.cameraMedium() || world.bordersMedia() || !world.regions().empty()),
         around_(world.cameraMedium()),
@@ -32,8 +33,10 @@ class Media {
         static_cast<MediumWalk*>(scratch.allocate(n * sizeof(MediumWalk), alignof(MediumWalk)));
     std::uninitialized_default_construct_n(room, n);
     walk_ = MediaWalk({room, n});
+    // A sampler without jitter gives all pixels the same.
     const Point2 seed = sampler.get2D();
-    rng_ = Rng(hash(std::bit_cast<std::uint32_t>(seed.x), std::bit_cast<std::uint32_t>(seed.y)));
+    rng_ = Rng(hash(std::bit_cast<std::uint32_t>(seed.x), std::bit_cast<std::uint32_t>(seed.y),
+                    hashOf(ray)));
   }
 
   bool any() const { return any_; }
@@ -98,7 +101,7 @@ class VolPath final : public SamplingIntegrator {
               Sampler& sampler, Scratch& scratch) const override {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
-    Media media(world, sampler, scratch);
+    Media media(world, ray, sampler, scratch);
     LightChoice choice(world, params_.strategy);
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out

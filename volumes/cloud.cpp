@@ -17,8 +17,7 @@ class Cloud final : public Medium {
         density_(p.nonNegative("density", 1, "how thick the cloud is; no part is denser than 1")),
         wispiness_(p.nonNegative("wispiness", 1, "how much finer noise moves it")),
         frequency_(p.positive("frequency", 5, "of the noise")) {
-    const Spectrum sigma = unit_.extinction();
-    setCells({1, 1, 1}, {{std::max({sigma.x, sigma.y, sigma.z}), false}}, !isBlack(unit_.emission));
+    setCells({1, 1, 1}, {{unit_.extinction(), false}}, !isBlack(unit_.emission));
   }
 
   // By differences, as the noise has no derivative at hand.

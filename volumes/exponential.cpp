@@ -19,8 +19,6 @@ class Exponential final : public Medium {
     up_ = glm::normalize(up_);
 
     // The greatest density of a cell is at one of its corners.
-    const Spectrum sigma = unit_.extinction();
-    const float most = std::max({sigma.x, sigma.y, sigma.z});
     const glm::ivec3 n = b_ == 0 ? glm::ivec3(1) : glm::ivec3(8);
     const DVec3 size = (box.hi - box.lo) / DVec3(n);
     std::vector<Cell> cells;
@@ -32,7 +30,7 @@ class Exponential final : public Medium {
             const DVec3 at(x + (corner & 1), y + (corner >> 1 & 1), z + (corner >> 2));
             greatest = std::max(greatest, density(box.lo + at * size));
           }
-          cells.push_back({static_cast<float>(greatest * most), b_ == 0});
+          cells.push_back({static_cast<float>(greatest) * unit_.extinction(), b_ == 0});
         }
     setCells(n, std::move(cells), !isBlack(unit_.emission));
   }

@@ -11,8 +11,7 @@ class Homogeneous final : public Medium {
   Homogeneous(Params& p, const Setup& setup, const MediumParams& medium, const MediumBox& box)
       : Medium(setup, medium.g, box.lo, box.hi), point_(medium.unit) {
     point_.emission *= p.nonNegative("Lescale", 1, "multiplies Le");
-    const Spectrum sigma = point_.extinction();
-    setCells({1, 1, 1}, {{std::max({sigma.x, sigma.y, sigma.z}), true}}, !isBlack(point_.emission));
+    setCells({1, 1, 1}, {{point_.extinction(), true}}, !isBlack(point_.emission));
   }
 
   static MediumBox readPlace(Params& p) {

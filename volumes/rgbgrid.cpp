@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "core/plugin/medium_params.h"
 #include "core/plugin/plugin.h"
 #include "core/plugin/voxel_grid.h"
@@ -23,27 +21,27 @@ class RgbGrid final : public Medium {
         scattering_(read(p, "sigma_s", "scattering of each voxel; all 1 if there is none", n)),
         emission_(read(p, "Le", "radiance that each voxel emits, as a black body", n)),
         scale_(p.nonNegative("scale", 1, "multiplies sigma_a and sigma_s")),
-        emissionScale_(p.nonNegative("Lescale", 1, "multiplies Le")) {
-    if (!emission_.empty() && absorption_.empty() && !p.describing())
+        emissionScale_(p.nonNegative("Lescale", 1, "multiplies Le") * readRadianceScale(p)) {
+    if (p.describing()) return;
+    if (!emission_.empty() && absorption_.empty())
       p.fail("Le", "needs \"sigma_a\", by which it goes");
+    if (absorption_.empty() && scattering_.empty()) p.fail("sigma_a", "or \"sigma_s\" is needed");
     const glm::ivec3 cells = boundingCells(n);
     std::vector<Cell> bounds;
     for (int z = 0; z < cells.z; ++z)
       for (int y = 0; y < cells.y; ++y)
         for (int x = 0; x < cells.x; ++x) {
           Cell cell;
-          Spectrum most(0);
           for (const Grid* grid : {&absorption_, &scattering_}) {
             const auto [least, greatest] =
                 grid->empty() ? std::pair(Spectrum(1), Spectrum(1)) : grid->range({x, y, z}, cells);
-            most += greatest;
+            cell.majorant += scale_ * greatest;
             cell.uniform = cell.uniform && least == greatest;
           }
           if (!emission_.empty()) {
             const auto [least, greatest] = emission_.range({x, y, z}, cells);
             cell.uniform = cell.uniform && least == greatest;
           }
-          cell.rate = std::max({most.x, most.y, most.z}) * scale_;
           bounds.push_back(cell);
         }
     setCells(cells, std::move(bounds), !emission_.empty());
@@ -54,10 +52,7 @@ class RgbGrid final : public Medium {
     std::vector<Spectrum> values = p.spectra(name, meaning);
     if (values.empty()) return {};
     checkVoxels(p, name, n, values.size());
-    for (const Spectrum& v : values)
-      for (int c = 0; c < 3; ++c)
-        if (!(v[c] >= 0 && std::isfinite(v[c])))
-          p.fail(name, fmt::format("must not be negative, but is {}", v[c]));
+    for (const Spectrum& v : values) checkNonNegative(p, name, {&v.x, 3});
     return {n, std::move(values), true};
   }
 

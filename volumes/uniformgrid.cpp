@@ -52,17 +52,20 @@ class UniformGrid final : public Medium {
     readTemperature(p, n);
     if (p.describing()) return;
     const glm::ivec3 cells = boundingCells(n);
-    setCells(cells, boundsOf(density_, cells, unit_.extinction()), glows());
+    setCells(cells, boundsOf(density_, cells, unit_.extinction(), {&strength_, &temperature_}),
+             glows());
   }
 
   void readTemperature(Params& p, const glm::ivec3& n) {
     std::vector<float> kelvins = readDensities(
         p, "temperature", "of each voxel in K, by which it glows as a black body with a peak of 1");
+    radianceScale_ = readRadianceScale(p);
     const float cutoff = p.number("temperaturecutoff", 0, "the default of temperatureoffset", "K");
     const float offset =
         p.number("temperatureoffset", cutoff, "taken from the temperatures first", "K");
     const float scale = p.nonNegative("temperaturescale", 1, "multiplies the temperatures then");
     if (kelvins.empty()) return;
+    if (p.has("Le")) p.fail("temperature", "cannot be beside \"Le\": a voxel glows by one of them");
     checkVoxels(p, "temperature", n, kelvins.size());
     for (float& t : kelvins) t = std::max(0.F, (t - offset) * scale);
     colours_ = BlackBodies(*std::ranges::max_element(kelvins));
@@ -74,7 +77,8 @@ class UniformGrid final : public Medium {
   MediumPoint properties(const DPoint3& p) const override {
     const DVec3 u = (p - lo()) / (hi() - lo());
     MediumPoint m = unit_ * density_(u);
-    if (!temperature_.empty()) m.emission = m.absorption * colours_(temperature_(u));
+    if (!temperature_.empty())
+      m.emission = m.absorption * radianceScale_ * colours_(temperature_(u));
     if (!strength_.empty()) m.emission *= strength_(u);
     return m;
   }
@@ -82,6 +86,7 @@ class UniformGrid final : public Medium {
   MediumPoint unit_;
   VoxelGrid<float> density_, strength_, temperature_;  // the latter two may be empty
   BlackBodies colours_;
+  float radianceScale_ = 1;  // of them
 };
 
 }  // namespace pbrt

@@ -47,13 +47,16 @@ void Medium::setCells(const glm::ivec3& n, std::vector<Cell> cells, bool glows) 
   }
   for (Cell& cell : cells) {
     // One tentative collision or two on the way through a cell.
-    if (glows) cell.rate = std::max(cell.rate, across > 0 ? static_cast<float>(2 / across) : 1.F);
-    if (!std::isfinite(cell.rate)) throw Error("the medium is denser than can be told in floats");
-    if (!cell.uniform && cell.rate * across > kMost)
+    if (glows)
+      cell.majorant =
+          glm::max(cell.majorant, Spectrum(across > 0 ? static_cast<float>(2 / across) : 1.F));
+    if (!isFinite(cell.majorant)) throw Error("the medium is denser than can be told in floats");
+    const float most = std::max({cell.majorant.x, cell.majorant.y, cell.majorant.z});
+    if (!cell.uniform && most * across > kMost)
       throw Error(
           fmt::format("within an optical depth of {:.2g} the medium is not uniform: it is too "
                       "dense to be traced",
-                      cell.rate * across));
+                      most * across));
   }
   n_ = n;
   cells_ = std::move(cells);

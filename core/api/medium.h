@@ -34,10 +34,11 @@ class Medium {
   struct Setup {
     Transform toRender;  // medium space to render space
   };
-  // Bounds over a cell of the box; all cells have one size. A cell of rate 0 is empty.
+  // Bounds over a cell of the box; all cells have one size. A cell whose majorant is 0 in every
+  // channel is empty.
   struct Cell {
-    float rate = 0;       // no less than the extinction in any channel
-    bool uniform = true;  // whether the medium is the same all over the cell
+    Spectrum majorant{0};  // no less than the extinction anywhere in the cell
+    bool uniform = true;   // whether the medium is the same all over it, its emission too
   };
 
   Medium(const Medium&) = delete;
@@ -63,9 +64,9 @@ class Medium {
   // At a point of the box, in medium space.
   virtual MediumPoint properties(const DPoint3& p) const = 0;
 
-  // To be called once by every constructor; x goes fastest. Of a medium that glows the rates are
-  // raised, so that light is found where nothing is extinguished. Throws Error if a rate is not
-  // finite, or so great that nobody could trace a ray through a cell that is not uniform.
+  // To be called once by every constructor; x goes fastest. Of a medium that glows the majorants
+  // are raised, so that light is found where nothing is extinguished. Throws Error if a majorant is
+  // not finite, or so great that nobody could trace a ray through a cell that is not uniform.
   void setCells(const glm::ivec3& n, std::vector<Cell> cells, bool glows);
   const DPoint3& lo() const { return lo_; }
   const DPoint3& hi() const { return hi_; }

@@ -64,7 +64,7 @@ bool MediaWalk::next() {
   while (count_ > 0) {
     stretch_.begin = stretch_.end;
     stretch_.end = std::numeric_limits<double>::infinity();
-    stretch_.rate = 0;
+    stretch_.majorant = Spectrum(0);
     stretch_.uniform = true;
     for (std::size_t i = 0; i < count_;) {
       MediumWalk& walk = room_[i];
@@ -79,12 +79,12 @@ bool MediaWalk::next() {
         stretch_.end = std::min(stretch_.end, s.begin);
       } else {
         stretch_.end = std::min(stretch_.end, s.end);
-        stretch_.rate += s.rate;
+        stretch_.majorant += s.majorant;
         stretch_.uniform = stretch_.uniform && s.uniform;
       }
       ++i;
     }
-    if (count_ > 0 && stretch_.rate > 0) return true;
+    if (count_ > 0 && !isBlack(stretch_.majorant)) return true;
   }
   return false;
 }
@@ -92,7 +92,7 @@ bool MediaWalk::next() {
 MediumPoint MediaWalk::at(double t) const {
   MediumPoint sum;
   for (const MediumWalk& walk : room_.first(count_)) {
-    if (walk.stretch().begin > stretch_.begin || walk.stretch().rate == 0) continue;
+    if (walk.stretch().begin > stretch_.begin || isBlack(walk.stretch().majorant)) continue;
     const MediumPoint m = walk.medium().inside(point(t));
     sum.absorption += m.absorption;
     sum.scattering += m.scattering;
@@ -105,7 +105,7 @@ MediaWalk::Scattering MediaWalk::scattering(double t, float u) const {
   Scattering chosen;
   float sum = 0;
   for (const MediumWalk& walk : room_.first(count_)) {
-    if (walk.stretch().begin > stretch_.begin || walk.stretch().rate == 0) continue;
+    if (walk.stretch().begin > stretch_.begin || isBlack(walk.stretch().majorant)) continue;
     const Spectrum s = walk.medium().inside(point(t)).scattering;
     const float weight = s.x + s.y + s.z;
     if (!(weight > 0)) continue;

@@ -57,12 +57,9 @@ class RayMarch : public VolumeIntegrator {
 
   Spectrum transmittance(const World& world, const Ray& ray, float t) const override {
     const Line line(ray);
-    const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
-    const std::uint64_t h = hash(bits(ray.o.x), bits(ray.o.y), bits(ray.o.z), bits(ray.d.x),
-                                 bits(ray.d.y), bits(ray.d.z));
     const Interval way{ray.tMin * line.length, t * line.length};
     return attenuation(line.depth(world.regions(), way, 4.0 * step_,
-                                  uniformFloat(static_cast<std::uint32_t>(h >> 32U))),
+                                  uniformFloat(static_cast<std::uint32_t>(hashOf(ray) >> 32U))),
                        1);
   }
 
@@ -106,7 +103,7 @@ class RayMarch : public VolumeIntegrator {
         MediumWalk walk(*region, o, w, part);
         while (walk.next()) {
           const Stretch& s = walk.stretch();
-          if (s.rate == 0) continue;
+          if (isBlack(s.majorant)) continue;
           const int n = s.uniform ? 1 : steps(s.length(), step, 1e3);
           const double h = s.length() / n;
           for (int i = 0; i < n; ++i)

@@ -2,6 +2,8 @@
 // Light on its way through media: what is left of it, and where it is scattered. Unbiased wherever
 // the random numbers are.
 
+#include <bit>
+
 #include "core/api/medium_walk.h"
 #include "core/base/rng.h"
 
@@ -12,6 +14,13 @@ struct Collision {
   double t = 0;  // distance
   float g = 0;   // of the phase function
 };
+
+// Of its origin and direction, to draw other numbers for each ray than for all others.
+inline std::uint64_t hashOf(const Ray& ray) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  return hash(bits(ray.o.x), bits(ray.o.y), bits(ray.o.z), bits(ray.d.x), bits(ray.d.y),
+              bits(ray.d.z));
+}
 
 // exp(-sigma length), without 0 times infinity.
 inline Spectrum attenuation(const Spectrum& sigma, double length) {
@@ -29,9 +38,21 @@ inline Spectrum reach(const Spectrum& sigma, double length) {
   return r;
 }
 
-// The distance in a medium of extinction `rate`, uniform u in [0, 1).
-inline double freePath(float rate, float u) {
-  return -std::log1p(-double{u}) / rate;
+// The distance to the next collision in a medium of extinction sigma, uniform u in [0, 1). If sigma
+// is 0 it is infinite, or not a number.
+inline double freeFlight(float sigma, float u) {
+  return -std::log1p(-double{u}) / sigma;
+}
+
+// The greatest of the majorants in channels that light is left in. Free flights have no memory, so
+// it may be another one after each collision: else an opaque channel, in which nothing is left,
+// would go on to stop the others. What is below the normal floats is nothing, as it need not ever
+// be rounded to 0.
+inline float majorantFor(const Spectrum& majorant, const Spectrum& light) {
+  float most = 0;
+  for (int c = 0; c < 3; ++c)
+    if (light[c] >= std::numeric_limits<float>::min()) most = std::max(most, majorant[c]);
+  return most;
 }
 
 // Goes along a walk, from its start, until the ray is scattered; empty: it comes through. The
@@ -41,8 +62,8 @@ inline double freePath(float rate, float u) {
 // Free paths are drawn for one channel of the spectrum, chosen by what the throughput has of each;
 // the densities of all are added (balance heuristic, Veach 1997, section 9.2.2), so that no weight
 // exceeds the sum of the channels. In a uniform stretch the densities are known. Elsewhere
-// collisions are drawn at the rate of the bound, and the chance that one is real is treated in the
-// same way (delta tracking, Woodcock et al. 1965; for spectra Kutz et al. 2017, section 4).
+// collisions are drawn at the rate of the majorant, and the chance that one is real is treated in
+// the same way (delta tracking, Woodcock et al. 1965; for spectra Kutz et al. 2017, section 4).
 inline std::optional<Collision> collide(MediaWalk& walk, float first, Rng& rng,
                                         Spectrum& throughput, Spectrum& L) {
   float u = first;
@@ -51,9 +72,10 @@ inline std::optional<Collision> collide(MediaWalk& walk, float first, Rng& rng,
     for (int c = 0; c < 3; ++c)
       if (emission[c] > 0 && throughput[c] > 0) L[c] += throughput[c] * emission[c] * length[c];
   };
-  const auto scatterAt = [&](double t) {
+  // `weight` is that of a unit of scattering; it may be too great for floats.
+  const auto scatterAt = [&](double t, const DVec3& weight) {
     const MediaWalk::Scattering s = walk.scattering(t, rng.uniform());
-    throughput *= s.scattering;
+    throughput *= Spectrum(weight * DVec3(s.scattering));
     return Collision{t, s.g};
   };
   while (!isBlack(throughput) && walk.next()) {
@@ -66,30 +88,29 @@ inline std::optional<Collision> collide(MediaWalk& walk, float first, Rng& rng,
       const Spectrum share = shares();
       const float which = rng.uniform();
       const int channel = which < share.x ? 0 : which < share.x + share.y ? 1 : 2;
-      const double path = sigma[channel] > 0 ? freePath(sigma[channel], u) : stretch.length();
+      const double flight = sigma[channel] > 0 ? freeFlight(sigma[channel], u) : stretch.length();
       u = rng.uniform();
-      const bool collides = path < stretch.length();
-      const Spectrum T = attenuation(sigma, collides ? path : stretch.length());
-      const float density = glm::dot(share, collides ? sigma * T : T);
+      const bool collides = flight < stretch.length();
+      const Spectrum T = attenuation(sigma, collides ? flight : stretch.length());
+      const DVec3 left(T);
+      const double density = glm::dot(DVec3(share), collides ? DVec3(sigma) * left : left);
       if (!(density > 0)) {
         throughput = Spectrum(0);
         return {};
       }
-      throughput *= T / density;
-      if (collides) return scatterAt(stretch.begin + path);
+      if (collides) return scatterAt(stretch.begin + flight, left / density);
+      throughput *= Spectrum(left / density);
     } else {
       double t = stretch.begin;
-      for (; !isBlack(throughput); u = rng.uniform()) {
-        t += freePath(stretch.rate, u);
+      for (;; u = rng.uniform()) {
+        const float majorant = majorantFor(stretch.majorant, throughput);
+        t += freeFlight(majorant, u);
         if (!(t < stretch.end)) break;
         const MediumPoint m = walk.at(t);
-        gain(m.emission, Spectrum(1 / stretch.rate));
-        const Spectrum real = glm::min(m.extinction() / stretch.rate, Spectrum(1));
+        gain(m.emission, Spectrum(1 / majorant));
+        const Spectrum real = glm::min(m.extinction() / majorant, Spectrum(1));
         const float chance = glm::dot(shares(), real);
-        if (rng.uniform() < chance) {
-          throughput /= stretch.rate * chance;
-          return scatterAt(t);
-        }
+        if (rng.uniform() < chance) return scatterAt(t, DVec3(1 / (double{majorant} * chance)));
         throughput *= (Spectrum(1) - real) / (1 - chance);
       }
       u = rng.uniform();
@@ -112,10 +133,11 @@ inline Spectrum estimateTransmittance(MediaWalk& walk, Rng& rng) {
           stretch.length());
       continue;
     }
-    for (double t = stretch.begin; !isBlack(T);) {
-      t += freePath(stretch.rate, rng.uniform());
+    for (double t = stretch.begin;;) {
+      const float majorant = majorantFor(stretch.majorant, T);
+      t += freeFlight(majorant, rng.uniform());
       if (!(t < stretch.end)) break;
-      T *= glm::max(Spectrum(1) - walk.at(t).extinction() / stretch.rate, Spectrum(0));
+      T *= glm::max(Spectrum(1) - walk.at(t).extinction() / majorant, Spectrum(0));
       if (std::max({T.x, T.y, T.z}) < kRouletteBelow)
         T = rng.uniform() < kSurvival ? T / kSurvival : Spectrum(0);
     }

@@ -17,8 +17,8 @@ constexpr std::uint64_t compiledFingerprint() {
       sizeof(CameraRay), sizeof(BsdfSample), sizeof(Bsdf), sizeof(Hit), sizeof(World),
       sizeof(Light), sizeof(Textured<float>), sizeof(Textured<Spectrum>), sizeof(Light::Setup),
       sizeof(Camera::Setup), sizeof(Sampler::Setup), sizeof(Integrator::Setup), sizeof(Medium),
-      sizeof(Medium::Setup), sizeof(Texture<float>::Setup), sizeof(Params), sizeof(glm::vec3),
-      alignof(glm::vec3), alignof(glm::vec4), GLM_VERSION, __GXX_ABI_VERSION,
+      sizeof(Medium::Setup), sizeof(Medium::Cell), sizeof(Texture<float>::Setup), sizeof(Params),
+      sizeof(glm::vec3), alignof(glm::vec3), alignof(glm::vec4), GLM_VERSION, __GXX_ABI_VERSION,
 #ifdef __GLIBCXX__
       1, _GLIBCXX_USE_CXX11_ABI
 #else

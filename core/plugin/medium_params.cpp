@@ -6,25 +6,35 @@
 
 namespace pbrt {
 
+void checkNonNegative(const Params& p, const std::string& name, std::span<const float> values) {
+  for (const float v : values)
+    if (!(v >= 0 && std::isfinite(v)))
+      p.fail(name, fmt::format("must {}, but is {}", v < 0 ? "not be negative" : "be finite", v));
+}
+
 Spectrum readNonNegative(Params& p, const std::string& name, float fallback,
                          std::string_view meaning) {
   const Spectrum value = p.spectrum(name, Spectrum(fallback), meaning);
-  for (int c = 0; c < 3; ++c)
-    if (!(value[c] >= 0 && std::isfinite(value[c])))
-      p.fail(name, fmt::format("must not be negative, but is {}", value[c]));
+  checkNonNegative(p, name, {&value.x, 3});
   return value;
 }
 
 std::vector<float> readDensities(Params& p, const std::string& name, std::string_view meaning) {
   std::vector<float> values = p.numbers(name, meaning);
-  for (const float v : values)
-    if (!(v >= 0 && std::isfinite(v)))
-      p.fail(name, fmt::format("must not be negative, but is {}", v));
+  checkNonNegative(p, name, values);
   return values;
+}
+
+float readRadianceScale(Params& p) {
+  return p.nonNegative(
+      "radiancescale", 1,
+      "multiplies that radiance: pbrt-v4 does not divide it by the integral of the CIE's y");
 }
 
 MediumParams readMedium(Params& p) {
   const std::string preset = p.text("preset", "", "of measured media, e.g. \"Wholemilk\"");
+  const bool presetFirst =
+      p.flag("presetfirst", false, "preset goes before sigma_a and sigma_s (pbrt-v4)");
   std::optional<NamedMedium> named;
   if (!preset.empty()) {
     named = namedMedium(preset);
@@ -32,21 +42,25 @@ MediumParams readMedium(Params& p) {
       p.fail("preset", fmt::format("there is no medium \"{}\"{}", shown(preset),
                                    didYouMean(preset, mediumNames())));
   }
+  const auto read = [&](const std::string& name, Spectrum NamedMedium::*measured,
+                        std::string_view meaning) {
+    if (named && !p.has(name)) return (*named).*measured;
+    const Spectrum given = readNonNegative(p, name, 1, meaning);
+    if (!named) return given;
+    p.warn(name,
+           presetFirst ? "without effect beside \"preset\"" : "takes the place of \"preset\"");
+    return presetFirst ? (*named).*measured : given;
+  };
   MediumParams medium;
-  medium.unit.absorption = named && !p.has("sigma_a")
-                               ? named->absorption
-                               : readNonNegative(p, "sigma_a", 1, "absorption per unit length");
-  medium.unit.scattering = named && !p.has("sigma_s")
-                               ? named->scattering
-                               : readNonNegative(p, "sigma_s", 1, "scattering per unit length");
+  medium.unit.absorption = read("sigma_a", &NamedMedium::absorption, "absorption per unit length");
+  medium.unit.scattering = read("sigma_s", &NamedMedium::scattering, "scattering per unit length");
   const float scale = p.nonNegative("scale", 1, "multiplies sigma_a and sigma_s");
   medium.unit.absorption *= scale;
   medium.unit.scattering *= scale;
   medium.g = p.inRange("g", 0, -0.999F, 0.999F,
                        "mean cosine of scattering: above 0 forward, below 0 backward");
   medium.unit.emission = p.emission("Le", Spectrum(0), "radiance that the medium emits");
-  for (int c = 0; c < 3; ++c)
-    if (!(medium.unit.emission[c] >= 0)) p.fail("Le", "must not be negative");
+  checkNonNegative(p, "Le", {&medium.unit.emission.x, 3});
   if (p.flag("thermal", true,
              "Le is that of a black body: what is emitted goes with sigma_a; else Le is emitted by "
              "a unit length"))

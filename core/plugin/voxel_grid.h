@@ -73,16 +73,22 @@ inline glm::ivec3 boundingCells(const glm::ivec3& voxels) {
   return glm::min(2 * voxels, glm::ivec3(16));
 }
 
-// Those cells, of a medium that has the extinction sigma where the grid is 1.
-inline std::vector<Medium::Cell> boundsOf(const VoxelGrid<float>& grid, const glm::ivec3& cells,
-                                          const Spectrum& sigma) {
-  const float most = std::max({sigma.x, sigma.y, sigma.z});
+// Those cells, of a medium that has the extinction sigma where the density is 1. Where it is
+// uniform `others` have to be so, too; they may be empty.
+inline std::vector<Medium::Cell> boundsOf(
+    const VoxelGrid<float>& density, const glm::ivec3& cells, const Spectrum& sigma,
+    std::initializer_list<const VoxelGrid<float>*> others = {}) {
   std::vector<Medium::Cell> bounds;
   for (int z = 0; z < cells.z; ++z)
     for (int y = 0; y < cells.y; ++y)
       for (int x = 0; x < cells.x; ++x) {
-        const auto [least, greatest] = grid.range({x, y, z}, cells);
-        bounds.push_back({greatest * most, least == greatest});
+        const auto [least, greatest] = density.range({x, y, z}, cells);
+        const bool uniform = std::ranges::all_of(others, [&](const VoxelGrid<float>* grid) {
+          if (grid->empty()) return true;
+          const auto [lo, hi] = grid->range({x, y, z}, cells);
+          return lo == hi;
+        });
+        bounds.push_back({greatest * sigma, uniform && least == greatest});
       }
   return bounds;
 }

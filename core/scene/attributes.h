@@ -21,6 +21,7 @@ struct Attributes {
   std::shared_ptr<MaterialDefinition> material;
   std::shared_ptr<const Directive> areaLight;
   std::shared_ptr<const Directive> media;  // MediumInterface, two words; null: clear air
+  std::size_t mediaNamed = 0;  // how many MakeNamedMedium statements came before the shape
   std::shared_ptr<const ParamList> areaLightDefaults;
   Scope scope;
   std::array<std::shared_ptr<const ParamList>, kAttributeTargets.size()> defaults;

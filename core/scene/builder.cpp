@@ -188,6 +188,7 @@ bool SceneBuilder::handleOption(Directive& d) {
     cameraFromWorld_ = transforms_.current();
     transforms_.name("camera", cameraFromWorld_.inverse());
     cameraMedia_ = attributes_.media;
+    cameraMediaNamed_ = media_.size();
   }
   if (slot) *slot = std::move(d);
   return true;
@@ -245,6 +246,7 @@ void SceneBuilder::handleWorld(Directive& d) {
     case LightSource:
       return addLight(d);
     case DirectiveKind::Shape: {
+      attributes_.mediaNamed = media_.size();
       // An object's shapes live in a space of their own, which each instance places anew.
       if (openObject_)
         openObject_->pending.push_back(

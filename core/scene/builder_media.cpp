@@ -12,8 +12,9 @@ bool SceneBuilder::handleMedia(Directive& d) {
       const std::string name = d.words.at(0);
       std::string type = takeType(d);
       auto defaults = defaultsFor(AttributeTarget::medium, type);
-      media_.insert_or_assign(name, MediumDefinition{std::move(type), std::move(d.params), defaults,
-                                                     d.where, startOf(d), inWorld_, nullptr});
+      media_.emplace(std::pair(name, media_.size()),
+                     MediumDefinition{std::move(type), std::move(d.params), defaults, d.where,
+                                      startOf(d), inWorld_, nullptr});
       return true;
     }
     case DirectiveKind::MediumInterface:
@@ -46,20 +47,26 @@ const MediumInterface* SceneBuilder::mediaOf(const Attributes& attributes) {
   const auto& names = attributes.media;
   if (!names || names->words[0] == names->words[1] || !scene_->integrator_->tracesMedia())
     return nullptr;
-  const auto [found, isNew] =
-      interfaces_.try_emplace({names->words[0], names->words[1]}, nullptr, names);
+  const auto [found, isNew] = interfaces_.try_emplace(
+      {names->words[0], names->words[1], attributes.mediaNamed}, nullptr, names);
   if (isNew) found->second.first = &scene_->interfaces_.emplace_back();
   return found->second.first;
 }
 
-// The medium that one of the words of a MediumInterface names; null for "", clear air.
-const Medium* SceneBuilder::medium(const Directive& names, std::size_t word) {
+// The medium that one of the words of a MediumInterface names where `named` media have been named:
+// the last of this name before, else the first after. Null for "", clear air.
+const Medium* SceneBuilder::medium(const Directive& names, std::size_t word, std::size_t named) {
   const std::string& name = names.words[word];
   if (name.empty()) return nullptr;
-  const auto found = media_.find(name);
-  if (found == media_.end())
+  auto found = media_.lower_bound({name, named});
+  if (found != media_.begin() && std::prev(found)->first.first == name)
+    --found;
+  else if (found == media_.end() || found->first.first != name) {
+    std::vector<std::string> known;
+    for (const auto& entry : media_) known.push_back(entry.first.first);
     throw Error(names.wordsWhere[word], fmt::format("there is no named medium \"{}\"{}",
-                                                    shown(name), didYouMeanKey(name, media_)));
+                                                    shown(name), didYouMean(name, known)));
+  }
   MediumDefinition& m = found->second;
   if (m.built || !scene_->integrator_->tracesMedia()) return m.built;
   scene_->media_.push_back(factory_.make<Medium>(
@@ -70,12 +77,13 @@ const Medium* SceneBuilder::medium(const Directive& names, std::size_t word) {
 
 // Now that all names are known, and who looks at media.
 void SceneBuilder::finishMedia() {
-  for (const auto& [names, sides] : interfaces_)
-    factory_.attempt([&] {
-      *sides.first = {medium(*sides.second, 0), medium(*sides.second, 1)};
-      scene_->bordersMedia_ = true;
+  scene_->bordersMedia_ = !interfaces_.empty();
+  for (const auto& [key, sides] : interfaces_)
+    factory_.attempt([&, named = std::get<2>(key)] {
+      *sides.first = {medium(*sides.second, 0, named), medium(*sides.second, 1, named)};
     });
-  if (cameraMedia_) factory_.attempt([&] { scene_->cameraMedium_ = medium(*cameraMedia_, 1); });
+  if (cameraMedia_)
+    factory_.attempt([&] { scene_->cameraMedium_ = medium(*cameraMedia_, 1, cameraMediaNamed_); });
 
   const bool traced = scene_->integrator_->tracesMedia();
   const auto note = [&](const Location& where, std::string_view message) {
@@ -92,9 +100,6 @@ void SceneBuilder::finishMedia() {
     return;
   }
   const SamplingIntegrator* surface = scene_->integrator_->sampling();
-  if (!surface)
-    return note(volumeIntegrator_ ? volumeIntegrator_->where : Location(),
-                "this integrator sees no volumes: the picture shows clear air");
   const auto check = [&](const Integrator& made) {
     if (!made.volume())
       throw Error(volumeIntegrator_->wordsWhere.at(0),

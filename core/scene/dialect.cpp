@@ -154,6 +154,9 @@ const std::vector<DefaultsRow>& defaultsTable() {
   using enum PluginKind;
   static const ParamList noMedium = {grey("sigma_a", 0), grey("sigma_s", 0),
                                      flag("thermal", false)};
+  // Of the CIE's y over the wavelengths in nm: v4 divides by it what a spectrum of a light tells,
+  // but not black bodies of a temperature nor grids of colours.
+  constexpr float kIntegralOfY = 106.856895F;
   static const ParamList milk = {rgb("sigma_a", {0.0011F, 0.0024F, 0.014F}),
                                  rgb("sigma_s", {2.55F, 3.21F, 3.77F})};
   static const std::vector<DefaultsRow> table = {
@@ -199,6 +202,13 @@ const std::vector<DefaultsRow>& defaultsTable() {
       {kV1 | kV2, volume, "volumegrid", noMedium},
       {kV3, volume, "homogeneous", milk},
       {kV3, volume, "heterogeneous", milk},
+      {kV4, volume, "homogeneous", {flag("presetfirst", true)}},
+      {kV4, volume, "cloud", {flag("presetfirst", true)}},
+      {kV4,
+       volume,
+       "uniformgrid",
+       {flag("presetfirst", true), number("radiancescale", kIntegralOfY)}},
+      {kV4, volume, "rgbgrid", {number("radiancescale", kIntegralOfY)}},
       {kV4, filter, "gaussian", {number("xwidth", 1.5F), number("ywidth", 1.5F)}},
   };
   return table;

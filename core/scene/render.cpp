@@ -78,8 +78,8 @@ struct TileJob {
     const auto count = static_cast<std::size_t>(n);
     world.intersect({worker.rays.data(), count}, {worker.hits.data(), count});
     for (int i = 0; i < n; ++i) {
-      const CameraRay& camera = worker.cameraRays[i];
-      const Hit& hit = worker.hits[i];
+      CameraRay& camera = worker.cameraRays[i];
+      Hit& hit = worker.hits[i];
       Spectrum L(0);
       if (camera.weight > 0) {
         L = camera.weight *
@@ -90,26 +90,40 @@ struct TileJob {
           control.badSamples.fetch_add(1, std::memory_order_relaxed);
         }
       }
+      const bool stores = film.stores(kOfSurface);
+      const Point3 eye = camera.ray.o;
+      if (world.bordersMedia() && (stores || isBlack(L))) passBorders(camera.ray, hit);
       // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
       const bool hole = camera.weight > 0 && !hit.found() && isBlack(L);
       film.add(tile, worker.samples[i].film, L, hole ? 0 : 1);
-      if (hit.found() && film.stores(kOfSurface)) {
+      if (hit.found() && stores) {
         const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
-        film.add(tile, pixel, firstSurface(camera.ray, hit, worker.scratch));
+        film.add(tile, pixel, firstSurface(eye, camera.ray, hit, worker.scratch));
         worker.scratch.release();
       }
     }
   }
 
-  FirstSurface firstSurface(const RayDifferential& ray, const Hit& hit, Scratch& scratch) const {
+  // On to what can be seen: the borders of media cannot.
+  void passBorders(RayDifferential& ray, Hit& hit) const {
+    while (hit.found()) {
+      const SurfaceInteraction at = world.surface(ray, hit);
+      if (at.material) return;
+      static_cast<Ray&>(ray) = spawnRay(at, ray.d);
+      hit = world.intersect(ray);
+    }
+  }
+
+  FirstSurface firstSurface(const Point3& eye, const RayDifferential& ray, const Hit& hit,
+                            Scratch& scratch) const {
     SurfaceInteraction at = world.surface(ray, hit);
     Spectrum albedo(0);
     if (film.stores(kAlbedo | kNormal)) {  // a bump map turns the normal
       const Bsdf bsdf = world.bsdf(at, scratch);
       if (film.stores(kAlbedo)) albedo = bsdf.rho(at.wo);
     }
-    return {albedo,  at.ns,           at.p, glm::distance(ray.o, at.p), at.uv, at.n, at.dpdu,
-            at.dpdv, hit.placed() + 1};
+    return {albedo, at.ns,   at.p,    glm::distance(eye, at.p), at.uv,
+            at.n,   at.dpdu, at.dpdv, hit.placed() + 1};
   }
 };
 

@@ -83,7 +83,7 @@ class SceneBuilder {
   bool handleMedia(Directive& d);
   void addRegion(const Directive& d);
   const MediumInterface* mediaOf(const Attributes& attributes);
-  const Medium* medium(const Directive& names, std::size_t word);
+  const Medium* medium(const Directive& names, std::size_t word, std::size_t named);
   void finishMedia();
   static std::string takeType(Directive& d);
   static ColorSpace colorSpaceOf(const Directive& d);
@@ -163,10 +163,13 @@ class SceneBuilder {
   TransformPair cameraFromWorld_;  // as of the Camera statement
   float filmDiagonal_ = 35;        // mm
   std::shared_ptr<const Directive> cameraMedia_;
+  std::size_t cameraMediaNamed_ = 0;  // MakeNamedMedium statements before it
 
-  std::map<std::string, MediumDefinition> media_;
-  // Of shapes, by the names of both sides, with the first statement that has them.
-  std::map<std::pair<std::string, std::string>,
+  // By their names, which may be given again, and how many came before.
+  std::map<std::pair<std::string, std::size_t>, MediumDefinition> media_;
+  // Of shapes, by the names of both sides and how many media had been named, with the first
+  // statement that has them.
+  std::map<std::tuple<std::string, std::string, std::size_t>,
            std::pair<MediumInterface*, std::shared_ptr<const Directive>>>
       interfaces_;
   std::shared_ptr<const Directive> firstMedia_;  // the first MediumInterface with a name

@@ -202,6 +202,21 @@ TEST(Scattering, ThreadsDoNotCount) {
   EXPECT_NE(renderText(text).channels, renderText(view("\"volpath\"", kRoom)).channels);
 }
 
+// A sampler without jitter gives every pixel the same numbers; collisions are drawn anew all the
+// same.
+TEST(Scattering, PixelsAreIndependentWithoutJitter) {
+  const Image image = renderText(
+      "LookAt 0 0 -5 0 0 0 0 1 0 Camera \"orthographic\" Film \"image\" \"integer xresolution\" 8\n"
+      "\"integer yresolution\" 8 Sampler \"stratified\" \"integer xsamples\" 1 \"integer "
+      "ysamples\" 1\n"
+      "\"bool jitter\" \"false\" PixelFilter \"box\" SurfaceIntegrator \"volpath\" WorldBegin\n"
+      "LightSource \"infinite\" \"color L\" [1 1 1] Volume \"exponential\" \"float b\" 0.1\n"
+      "\"color sigma_a\" [.5 .5 .5] \"point p0\" [-2 -2 -1] \"point p1\" [2 2 1] WorldEnd");
+  const auto [least, greatest] = std::ranges::minmax(*image.channel("G"));
+  EXPECT_LT(least, greatest);
+  EXPECT_NEAR(mean(image, "G"), std::exp(-0.82), 0.25);
+}
+
 // Regions dim shadow rays, mirrors and indirect light of every integrator of surfaces.
 TEST(Scattering, SurfacesAreLitThroughRegions) {
   const std::string fog =

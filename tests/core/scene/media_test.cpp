@@ -1,7 +1,9 @@
 // Statements about media: what they mean, and what is said about those that are wrong.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include "core/base/cie_tables.h"
 #include "tests/scenes.h"
 
 namespace pbrt {
@@ -143,6 +145,13 @@ TEST(Media, WhatIsWrongIsSaidWithItsPlace) {
   expectFailure(volpath(medium("\"homogeneous\" \"rgb sigma_a\" [1e38 1 1] \"float scale\" 100")),
                 "denser than can be told");
   expectFailure(volpath(medium("\"rgbgrid\" \"rgb Le\" [1 1 1]")), "needs \"sigma_a\"");
+  // Two stars: each is finite.
+  expectFailure(volpath(medium("\"homogeneous\" \"blackbody Le\" [5000 3e38 5000 3e38]")),
+                "must be finite");
+  expectFailure(volpath(medium("\"rgbgrid\"")), "\"sigma_s\" is needed");
+  expectFailure(volpath(medium("\"uniformgrid\" \"float density\" 1 \"float temperature\" 900 "
+                               "\"rgb Le\" [1 1 1]")),
+                "cannot be beside \"Le\"");
   expectFailure(volpath(medium("\"homogeneous\" \"float sgima\" 1")), "sgima");
   expectFailure(volpath("Material \"\" AreaLightSource \"diffuse\" "
                         "Shape \"disk\" \"float raduis\" 2"),
@@ -184,16 +193,106 @@ TEST(Media, DefaultsGoByGeneration) {
   EXPECT_EQ(camera("\"rgb\"").scattering, Spectrum(1));
 }
 
-// Milk by its name, a tenth of it; what is given beside the name goes before it.
+// In v4 a temperature counts as often as the integral of the CIE's y in nm, as what grids of
+// colours emit does.
+TEST(Media, UnscaledRadianceIsThatOfItsGeneration) {
+  const auto emitted = [](const char* film, const std::string& type) {
+    return build(volpath("", "MakeNamedMedium \"m\" \"string type\" " + type +
+                                 " MediumInterface \"m\" Film " + film +
+                                 " Camera \"perspective\" "))
+        .scene->cameraMedium()
+        ->at({0.5, 0.5, 0.5})
+        .emission;
+  };
+  double y = 0;
+  for (const auto& row : kColourMatching) y += kVisibleStep * row[1];
+  const std::string grid = "\"uniformgrid\" \"rgb sigma_a\" [1 1 1] \"float density\" 1 ";
+  for (const std::string& type :
+       {grid + "\"float temperature\" 3000",
+        std::string("\"rgbgrid\" \"rgb sigma_a\" [1 1 1] \"rgb Le\" [3 2 1]")}) {
+    const Spectrum v3 = emitted("\"image\"", type), v4 = emitted("\"rgb\"", type);
+    ASSERT_GT(v3.x, 0);
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(v4[c], y * v3[c], 1e-4 * v4[c]) << type;
+  }
+  EXPECT_EQ(emitted("\"rgb\"", grid + "\"rgb Le\" [3 2 1]"), Spectrum(3, 2, 1));
+}
+
+// Milk by its name, a tenth of it; what is given beside the name goes before it in v3, not in v4.
 TEST(Media, PresetsAreMeasuredMedia) {
-  const Built built = build(
-      volpath("",
-              "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" \"Cream\" "
-              "\"float scale\" 0.1 \"rgb sigma_a\" [1 2 3] MediumInterface \"m\" Film \"image\" "
-              "Camera \"perspective\" "));
-  const MediumPoint m = built.scene->cameraMedium()->at(DPoint3(0));
-  EXPECT_NEAR(m.scattering.x, 0.738, 1e-6);
-  EXPECT_NEAR(m.absorption.z, 0.3, 1e-6);
+  const auto expectCream = [](const char* film, const char* more, float absorption,
+                              const char* warning) {
+    const Built built = build(
+        volpath("",
+                "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"string preset\" "
+                "\"Cream\" \"float scale\" 0.1 " +
+                    fmt::format("{} MediumInterface \"m\" Film \"{}\" Camera \"perspective\" ",
+                                more, film)));
+    const MediumPoint m = built.scene->cameraMedium()->at(DPoint3(0));
+    EXPECT_NEAR(m.scattering.x, 0.738, 1e-6);
+    EXPECT_NEAR(m.absorption.z, absorption, 1e-6) << film;
+    EXPECT_THAT(built.said, HasSubstr(warning));
+  };
+  const char* given = "\"rgb sigma_a\" [1 2 3]";
+  expectCream("image", "", 0.00163F, "");
+  expectCream("image", given, 0.3F, "takes the place of \"preset\"");
+  expectCream("rgb", given, 0.00163F, "without effect beside \"preset\"");
+}
+
+// A name may be given again: what was there before keeps what it had.
+TEST(Media, NamesMeanWhatWasNamedBefore) {
+  const auto fog = [](const char* density) {
+    return fmt::format(
+        "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"float scale\" {} ", density);
+  };
+  const std::string balls = "ObjectBegin \"o\" Material \"\" Shape \"sphere\" ObjectEnd ";
+  const std::string inFog = "MediumInterface \"fog\" \"\" ";
+  const auto through = [](const std::string& world) {
+    const auto scene = test::buildText(
+        "LookAt 0 0 -3 0 0 0 0 1 0 Camera \"perspective\" Integrator \"volpath\" Film \"rgb\" "
+        "WorldBegin LightSource \"infinite\" " +
+        world);
+    const RayDifferential ray(Ray{Point3(0), 0, {0, 0, 1}});
+    return scene->surface(ray, scene->intersect(ray)).media->inside->at({0, 0, 3}).scattering.x;
+  };
+  const std::string ball = "Material \"\" Shape \"sphere\" ";
+  EXPECT_EQ(through(fog("2") + inFog + ball + fog("7")), 2);
+  EXPECT_EQ(through(inFog + fog("2") + ball + fog("7")), 2);
+  EXPECT_EQ(through(inFog + ball + fog("2") + fog("7")), 2);
+  EXPECT_EQ(through(fog("2") + inFog + fog("7") + ball), 7);
+  EXPECT_EQ(through(fog("2") + inFog + balls + fog("7") + "ObjectInstance \"o\""), 2);
+  EXPECT_EQ(through(fog("7") + inFog + "AttributeBegin " + fog("2") + "AttributeEnd " + ball), 2);
+}
+
+// What nobody can see is neither in the alpha nor in what is stored of surfaces.
+TEST(Media, BordersAreNotSeen) {
+  const auto picture = [](const std::string& world) {
+    BuildOptions options;
+    options.aovs = kEveryAov & ~kVariance;
+    return test::renderText(
+        "LookAt 0 0 -3 0 0 0 0 1 0 Camera \"perspective\" Integrator \"volpath\" Sampler "
+        "\"halton\" "
+        "\"integer pixelsamples\" 1 Film \"image\" \"integer xresolution\" 8 \"integer "
+        "yresolution\" "
+        "8 WorldBegin LightSource \"point\" " +
+            world + " WorldEnd",
+        0, options);
+  };
+  const std::string border =
+      "MakeNamedMedium \"a\" \"string type\" \"homogeneous\" \"float scale\" 0 AttributeBegin "
+      "MediumInterface \"a\" \"\" Material \"\" Shape \"sphere\" AttributeEnd ";
+  const std::string disk = "Translate 0 0 2 Shape \"disk\" \"float radius\" 0.7 ";
+  // The disk first: its number counts.
+  for (const std::string& seen : {std::string(), disk}) {
+    const Image with = picture("AttributeBegin " + seen + "AttributeEnd " + border);
+    const Image without = picture("AttributeBegin " + seen + "AttributeEnd ");
+    for (const char* name : {"A", "Z", "N.Z", "P.X", "Albedo.G", "shape", "u"}) {
+      SCOPED_TRACE(name);
+      const auto *a = with.channel(name), *b = without.channel(name);
+      ASSERT_TRUE(a && b);
+      for (std::size_t i = 0; i < a->size(); ++i) ASSERT_NEAR((*a)[i], (*b)[i], 1e-4F);
+    }
+    EXPECT_EQ(test::mean(with, "A") > 0, !seen.empty());
+  }
 }
 
 }  // namespace
