@@ -205,7 +205,7 @@ TEST(Builder, StandInsWarnOnceAliasesDoNot) {
 
 TEST(Builder, DarkScenesAreToldOfUnlessTheIntegratorNeedsNoLight) {
   const auto said = [](const std::string& integrator) {
-    return warnings(integrator + " WorldBegin Shape \"disk\" WorldEnd");
+    return warnings(integrator + " Camera \"perspective\" WorldBegin Shape \"disk\" WorldEnd");
   };
   ASSERT_EQ(said("Integrator \"path\"").size(), 1U);
   EXPECT_TRUE(contains(said("Integrator \"path\"")[0], "no lights"));
