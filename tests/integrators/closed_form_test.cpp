@@ -33,10 +33,12 @@ TEST(ClosedForm, PhasesOfALitSphere) {
       const Image image = renderText(
           "LookAt 0 0 -5  0 0 0  0 1 0 Camera \"orthographic\"\n"
           "Film \"image\" \"integer xresolution\" 80 \"integer yresolution\" 80\n"
-          "PixelFilter \"box\" Sampler \"stratified\" \"integer xsamples\" 4 \"integer ysamples\" "
-          "4\nIntegrator " +
+          "PixelFilter \"box\" Sampler \"stratified\" \"integer xsamples\" 8 \"integer ysamples\" "
+          "8\nIntegrator " +
           integrator + " WorldBegin\n" + world);
-      EXPECT_NEAR(test::mean(image, "G"), expected * kPiD / 4, 1e-3 * expected) << a << integrator;
+      // The crescent of 2.5 has a standard deviation of 0.1 % over seeds.
+      const double mean = expected * kPiD / 4;
+      EXPECT_NEAR(test::mean(image, "G"), mean, 4e-3 * mean) << a << integrator;
     }
   }
 }

@@ -207,7 +207,7 @@ TEST(Builder, DarkScenesAreToldOfUnlessTheIntegratorNeedsNoLight) {
   const auto said = [](const std::string& integrator) {
     return warnings(integrator + " Camera \"perspective\" WorldBegin Shape \"disk\" WorldEnd");
   };
-  ASSERT_EQ(said("Integrator \"path\"").size(), 1U);
+  ASSERT_EQ(said("Integrator \"path\"").size(), 1U) << said("Integrator \"path\"").back();
   EXPECT_TRUE(contains(said("Integrator \"path\"")[0], "no lights"));
   EXPECT_TRUE(said("Integrator \"ambientocclusion\"").empty());
   EXPECT_TRUE(said("SurfaceIntegrator \"debug\"").empty());
