@@ -78,9 +78,11 @@ const Medium* SceneBuilder::medium(const Directive& names, std::size_t word, std
 // Now that all names are known, and who looks at media.
 void SceneBuilder::finishMedia() {
   scene_->bordersMedia_ = !interfaces_.empty();
-  for (const auto& [key, sides] : interfaces_)
-    factory_.attempt([&, named = std::get<2>(key)] {
-      *sides.first = {medium(*sides.second, 0, named), medium(*sides.second, 1, named)};
+  for (const auto& entry : interfaces_)
+    factory_.attempt([&] {
+      const auto& [sides, directive] = entry.second;
+      const auto named = std::get<2>(entry.first);
+      *sides = {medium(*directive, 0, named), medium(*directive, 1, named)};
     });
   if (cameraMedia_)
     factory_.attempt([&] { scene_->cameraMedium_ = medium(*cameraMedia_, 1, cameraMediaNamed_); });
