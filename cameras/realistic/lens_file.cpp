@@ -1,19 +1,17 @@
 #include "cameras/realistic/lens_file.h"
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <array>
 #include <cmath>
 
-#include "core/base/error.h"
 #include "core/base/file.h"
+#include "core/base/words.h"
 
 namespace pbrt {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n\v\f";
 constexpr std::size_t kLargest = std::size_t{1} << 20U;  // bytes
 constexpr double kLongest = 1e6;                         // mm
 
@@ -22,29 +20,14 @@ struct Number {
   Location where;
 };
 
-Number numberAt(const Source& source, std::size_t begin, std::size_t end) {
-  Number n{0, {&source, begin, end - begin}};
-  const char* last = source.text.data() + end;
-  const auto [next, error] = fast_float::from_chars(source.text.data() + begin, last, n.value);
-  if (error != std::errc() || next != last || !(std::abs(n.value) <= kLongest))
-    throw Error(n.where,
-                "expected a number of a lens: rows of radius, thickness, index and diameter");
-  return n;
-}
-
 std::vector<Number> numbersOf(const Source& source) {
-  const std::string& text = source.text;
   std::vector<Number> numbers;
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  while ((at = text.find_first_not_of(kSpace, at)) != text.npos) {
-    if (text[at] == '#') {
-      at = std::min(text.find('\n', at), text.size());
-      continue;
-    }
-    const std::size_t end =
-        std::min(text.find_first_of(std::string(kSpace) + '#', at), text.size());
-    numbers.push_back(numberAt(source, at, end));
-    at = end;
+  for (const Location& word : wordsOf(source)) {
+    const std::optional<double> value = numberOf(word);
+    if (!value || std::abs(*value) > kLongest)
+      throw Error(word,
+                  "expected a number of a lens: rows of radius, thickness, index and diameter");
+    numbers.push_back({*value, word});
   }
   return numbers;
 }

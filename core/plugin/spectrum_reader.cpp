@@ -1,45 +1,22 @@
 #include "core/plugin/spectrum_reader.h"
 
-#include <fast_float/fast_float.h>
 #include <fmt/format.h>
 
 #include <cmath>
 
 #include "core/base/file.h"
+#include "core/base/words.h"
 
 namespace pbrt {
 
 namespace {
 
-constexpr std::string_view kSpace = " \t\r\n\v\f";
 constexpr std::size_t kLargest = std::size_t{16} << 20U;  // bytes
 
-// The words of a text outside of comments.
-std::vector<Location> wordsOf(const Source& source) {
-  const std::string& text = source.text;
-  std::vector<Location> words;
-  std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;
-  while ((at = text.find_first_not_of(kSpace, at)) != text.npos) {
-    if (text[at] == '#') {
-      at = std::min(text.find('\n', at), text.size());
-      continue;
-    }
-    const std::size_t end =
-        std::min(text.find_first_of(std::string(kSpace) + '#', at), text.size());
-    words.push_back({&source, at, end - at});
-    at = end;
-  }
-  return words;
-}
-
-double numberOf(const Location& word) {
-  const char* begin = word.source->text.data() + word.begin;
-  const char* end = begin + word.length;
-  double value = 0;
-  const auto [next, error] = fast_float::from_chars(begin, end, value);
-  if (error != std::errc() || next != end || !std::isfinite(value))
-    throw Error(word, "expected a number: pairs of a wavelength in nm and a value");
-  return value;
+double valueOf(const Location& word) {
+  const std::optional<double> value = numberOf(word);
+  if (!value) throw Error(word, "expected a number: pairs of a wavelength in nm and a value");
+  return *value;
 }
 
 }  // namespace
@@ -75,13 +52,13 @@ SampledSpectrum readSpectrumFile(const std::filesystem::path& path, const Report
   const Source source{path.string(), readFile(path, FileKind::regular, kLargest)};
   const std::vector<Location> words = wordsOf(source);
   if (words.size() % 2 != 0) {
-    numberOf(words.back());
+    valueOf(words.back());
     throw Error(words.back(), "a wavelength without a value ends the spectrum");
   }
   SpectrumReader reader;
   for (std::size_t i = 0; i < words.size(); i += 2) {
-    const double nm = numberOf(words[i]);
-    reader.add(nm, numberOf(words[i + 1]), words[i]);
+    const double nm = valueOf(words[i]);
+    reader.add(nm, valueOf(words[i + 1]), words[i]);
   }
   return reader.finish({&source, 0, 1}, report);
 }
