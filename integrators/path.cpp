@@ -3,6 +3,7 @@
 
 #include "core/api/direct.h"
 #include "core/api/integrator.h"
+#include "core/api/met_light.h"
 #include "core/api/specular.h"
 #include "core/plugin/path_params.h"
 #include "core/plugin/plugin.h"
@@ -18,31 +19,18 @@ class Path final : public SamplingIntegrator {
               Sampler& sampler, Scratch& scratch) const override {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
-    LightChoice choice(world, params_.strategy);
+    MetLight met(world, params_.strategy);
+    LightChoice& choice = met.choice;
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out
-    float pdf = 0;      // of the ray's direction; 0: no light could have been sampled instead
-
-    // The weight of light that the ray meets, where sampling the light itself has density lightPdf.
-    const auto weight = [&](const Light& light, float lightPdf) {
-      return powerHeuristic(1, pdf, choice.chance(light), lightPdf);
-    };
 
     for (int bounce = 0;; ++bounce) {
       if (!hit.found()) {
-        const Vec3 w = glm::normalize(ray.d);
-        for (const Light* light : world.infiniteLights())
-          L += throughput * light->escaped(w) *
-               (pdf == 0 ? 1 : weight(*light, light->pdfEscaped(w)));
+        met.addEscaped(world, ray, throughput, L);
         return L;
       }
       SurfaceInteraction at = world.surface(ray, hit);
-      if (at.light) {
-        const Spectrum emitted = at.light->emitted(at.p, at.n, at.wo);
-        if (!isBlack(emitted))
-          L += throughput * emitted *
-               (pdf == 0 ? 1 : weight(*at.light, at.light->pdf(choice.point(), at)));
-      }
+      met.addEmitted(at, throughput, L);
       if (bounce == params_.maxDepth) return L;
 
       // Every vertex takes the same dimensions, whatever it is made of.
@@ -63,7 +51,7 @@ class Path final : public SamplingIntegrator {
       if (!(largest(throughput) > 0)) return L;
       if (bounce + 1 == params_.maxDepth && !mayEndAtLight(world, at.p, s->wi)) return L;
       const bool specular = s->flags & kSpecular;
-      pdf = specular ? 0 : s->pdf;
+      met.pdf = specular ? 0 : s->pdf;
       ray = specular ? specularRay(at, ray, *s) : RayDifferential(spawnRay(at, s->wi));
       hit = world.intersect(ray);
       throughput = dimmed(throughput, world, ray, hit.t);

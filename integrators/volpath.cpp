@@ -8,6 +8,7 @@
 
 #include "core/api/direct.h"
 #include "core/api/integrator.h"
+#include "core/api/met_light.h"
 #include "core/api/phase.h"
 #include "core/api/specular.h"
 #include "core/api/tracking.h"
@@ -102,15 +103,10 @@ class VolPath final : public SamplingIntegrator {
     RayDifferential ray = cameraRay;
     Hit hit = firstHit;
     Media media(world, ray, sampler, scratch);
-    LightChoice choice(world, params_.strategy);
+    MetLight met(world, params_.strategy);
+    LightChoice& choice = met.choice;
     Spectrum L(0), throughput(1);
     float density = 1;  // of radiance by refraction, which is no loss: it is undone on the way out
-    float pdf = 0;      // of the ray's direction; 0: no light could have been sampled instead
-
-    // The weight of light that the ray meets, where sampling the light itself has density lightPdf.
-    const auto weight = [&](const Light& light, float lightPdf) {
-      return powerHeuristic(1, pdf, choice.chance(light), lightPdf);
-    };
 
     for (int bounce = 0;;) {
       std::optional<Collision> collision;
@@ -125,19 +121,11 @@ class VolPath final : public SamplingIntegrator {
         at.time = ray.time;
       } else {
         if (!hit.found()) {
-          const Vec3 w = glm::normalize(ray.d);
-          for (const Light* light : world.infiniteLights())
-            L += throughput * light->escaped(w) *
-                 (pdf == 0 ? 1 : weight(*light, light->pdfEscaped(w)));
+          met.addEscaped(world, ray, throughput, L);
           return L;
         }
         at = world.surface(ray, hit);
-        if (at.light) {
-          const Spectrum emitted = at.light->emitted(at.p, at.n, at.wo);
-          if (!isBlack(emitted))
-            L += throughput * emitted *
-                 (pdf == 0 ? 1 : weight(*at.light, at.light->pdf(choice.point(), at)));
-        }
+        met.addEmitted(at, throughput, L);
         if (!at.material) {
           media.leave(at, ray.d);
           static_cast<Ray&>(ray) = spawnRay(at, ray.d);
@@ -166,7 +154,7 @@ class VolPath final : public SamplingIntegrator {
         }
         const PhaseSample s = phase.sample(at.wo, uScatter);
         wi = s.wi;
-        pdf = s.pdf;
+        met.pdf = s.pdf;
       } else {
         const Bsdf bsdf = world.bsdf(at, scratch);
         if (!choice.empty() && bsdf.has(kDiffuse | kGlossy)) {
@@ -185,7 +173,7 @@ class VolPath final : public SamplingIntegrator {
         scattered = *s;
         wi = s->wi;
         specular = s->flags & kSpecular;
-        pdf = specular ? 0 : s->pdf;
+        met.pdf = specular ? 0 : s->pdf;
       }
       if (bounce >= PathParams::kRouletteFrom &&
           !params_.survives(throughput, density, sampler.get1D()))
