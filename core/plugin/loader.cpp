@@ -38,7 +38,7 @@ bool isName(std::string_view name) {
 
 // Why the plug-in cannot be used; empty if it can. The order matters: until the ABI number agrees
 // nothing but the first field may be read.
-std::string refusal(const PluginInfo* info, PluginKind kind, const std::string& name) {
+std::string refusal(const PluginInfo* info) {
   if (!info) return "its entry function returns nothing";
   if (info->abi != kAbiVersion)
     return fmt::format("it was built for plug-in ABI {}, this pbrt has ABI {}; build it again",
@@ -46,9 +46,6 @@ std::string refusal(const PluginInfo* info, PluginKind kind, const std::string& 
   if (info->layout != coreFingerprint())
     return "its data layout differs from that of this pbrt (another compiler, library version or "
            "set of GLM options); build it again";
-  if (info->kind != kind)
-    return fmt::format("it is a {}, not a {}", kindName(info->kind), kindName(kind));
-  if (info->name != name) return fmt::format("it calls itself \"{}\"", info->name);
   return "";
 }
 
@@ -62,6 +59,22 @@ std::string_view kindFolder(PluginKind kind) {
 }
 std::uint64_t coreFingerprint() {
   return compiledFingerprint();
+}
+
+const PluginInfo& openPlugin(const fs::path& file) {
+  // All symbols now: a missing one must not end a render halfway. Never closed: objects live on.
+  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle)
+    throw Error(fmt::format("{}: cannot be opened: {}", file.string(), dlerror()), Failure::plugin);
+  const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
+  if (!entry)
+    throw Error(
+        fmt::format("{}: is no pbrt plug-in (it has no function {})", file.string(), kPluginSymbol),
+        Failure::plugin);
+  const PluginInfo* info = entry();
+  if (const std::string reason = refusal(info); !reason.empty())
+    throw Error(fmt::format("{}: {}", file.string(), reason), Failure::plugin);
+  return *info;
 }
 
 std::vector<fs::path> PluginLoader::searchPath(const std::string& extra) {
@@ -108,18 +121,13 @@ const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
   }
 
   const auto start = std::chrono::steady_clock::now();
-  // All symbols now: a missing one must not end a render halfway. Never closed: objects live on.
-  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle)
-    throw Error(fmt::format("{}: cannot be opened: {}", file.string(), dlerror()), Failure::plugin);
-  const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
-  if (!entry)
-    throw Error(
-        fmt::format("{}: is no pbrt plug-in (it has no function {})", file.string(), kPluginSymbol),
-        Failure::plugin);
-  const PluginInfo* info = entry();
-  if (const std::string reason = refusal(info, kind, name); !reason.empty())
-    throw Error(fmt::format("{}: {}", file.string(), reason), Failure::plugin);
+  const PluginInfo* info = &openPlugin(file);
+  std::string reason;
+  if (info->kind != kind)
+    reason = fmt::format("it is a {}, not a {}", kindName(info->kind), kindName(kind));
+  else if (info->name != name)
+    reason = fmt::format("it calls itself \"{}\"", info->name);
+  if (!reason.empty()) throw Error(fmt::format("{}: {}", file.string(), reason), Failure::plugin);
 
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   opened_.push_back({info, file, seconds.count()});

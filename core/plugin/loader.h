@@ -14,6 +14,10 @@ struct LoadedPlugin {
   double seconds = 0;  // to open
 };
 
+// Opens one file, whatever its kind and name; it is never closed. Throws Error, Failure::plugin,
+// naming the file and the reason, if it cannot be used.
+const PluginInfo& openPlugin(const std::filesystem::path& file);
+
 // Looks for <folder>/<name>.so below each directory of the search path, opens it at first mention
 // and never closes it. Not thread-safe.
 class PluginLoader {

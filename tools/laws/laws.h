@@ -1,0 +1,21 @@
+#pragma once
+// The laws of each kind.
+
+#include "law.h"
+
+namespace pbrt::laws {
+
+std::span<const Law> shapeLaws();
+std::span<const Law> materialLaws();
+std::span<const Law> textureLaws();
+std::span<const Law> lightLaws();
+std::span<const Law> cameraLaws();
+std::span<const Law> samplerLaws();
+std::span<const Law> filterLaws();
+std::span<const Law> integratorLaws();
+std::span<const Law> volumeLaws();
+
+// Those of a kind, in the order in which they are best read.
+std::span<const Law> lawsOf(PluginKind kind);
+
+}  // namespace pbrt::laws

@@ -1,0 +1,11 @@
+// The laws of every texture.
+
+#include "laws.h"
+
+namespace pbrt::laws {
+
+std::span<const Law> textureLaws() {
+  return {};
+}
+
+}  // namespace pbrt::laws
