@@ -8,6 +8,8 @@
 #include <cstring>
 #include <fstream>
 
+// NOLINTBEGIN(bugprone-reserved-identifier)
+
 // The head of this library's own file; the linker names it.
 extern "C" __attribute__((visibility("hidden"))) const ElfW(Ehdr) __ehdr_start;
 
@@ -15,6 +17,8 @@ extern "C" __attribute__((visibility("hidden"))) const ElfW(Ehdr) __ehdr_start;
 extern "C" __attribute__((weak)) void __asan_init();
 extern "C" __attribute__((weak)) void __tsan_init();
 extern "C" __attribute__((weak)) void __msan_init();
+
+// NOLINTEND(bugprone-reserved-identifier)
 
 namespace pbrt {
 
@@ -30,6 +34,7 @@ constexpr std::array<std::string_view, 6> kOptionNames = {
     "AddressSanitizer (-fsanitize=address)",
     "ThreadSanitizer (-fsanitize=thread)",
     "MemorySanitizer (-fsanitize=memory)"};
+constexpr std::string_view kCutShort = "the file is cut short; build it again";
 constexpr std::uint32_t kSanitizers = kAddressSanitizer | kThreadSanitizer | kMemorySanitizer;
 
 // What a plug-in may be built with here. Sanitizers need their run-time library, which LD_PRELOAD
@@ -108,13 +113,13 @@ std::string refusal(const fs::path& file) {
   for (std::uint64_t i = 0; i < head.e_phnum; ++i) {
     ElfW(Phdr) part;
     const bool whole = read(head.e_phoff + i * head.e_phentsize, sizeof part, &part);
-    // The dynamic linker would meet a signal where the file ends too early.
+    // The dynamic linker maps without a look at the size, and would die beyond the end by a signal.
     if (!whole || part.p_offset > size || part.p_filesz > size - part.p_offset)
-      return "the file is cut short; build it again";
+      return std::string(kCutShort);
     // A PluginInfo has pointers that the dynamic linker fills in: it lies among what is written to.
     if (found || part.p_type != PT_LOAD || !(part.p_flags & PF_W)) continue;
     data.resize(part.p_filesz);
-    if (!read(part.p_offset, part.p_filesz, data.data())) return "the file is cut short";
+    if (!read(part.p_offset, part.p_filesz, data.data())) return std::string(kCutShort);
     const std::size_t at = data.find(magic);
     found = at != data.npos && sizeof stamp <= data.size() - at;
     if (found) std::memcpy(&stamp, data.data() + at, sizeof stamp);

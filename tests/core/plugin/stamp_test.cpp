@@ -86,10 +86,7 @@ TEST_F(Spoilt, TheCopyItselfIsGood) {
 }
 
 TEST_F(Spoilt, WhatIsNoSharedObject) {
-  for (const char* text : {"", "\x7f",
-                           "\x7f"
-                           "ELF",
-                           "this is a text", "#!/bin/sh\n"}) {
+  for (const char* text : {"", "\177", "\177ELF", "this is a text", "#!/bin/sh\n"}) {
     bytes_ = text;
     EXPECT_EQ(reason(), "it is no shared object") << text;
   }
