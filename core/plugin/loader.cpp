@@ -1,5 +1,6 @@
 #include "core/plugin/loader.h"
 
+#include <cxxabi.h>
 #include <dlfcn.h>
 #include <fmt/format.h>
 
@@ -7,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <cstdlib>
+#include <memory>
 
 namespace pbrt {
 
@@ -36,17 +38,20 @@ bool isName(std::string_view name) {
   });
 }
 
-// Why the plug-in cannot be used; empty if it can. The order matters: until the ABI number agrees
-// nothing but the first field may be read.
-std::string refusal(const PluginInfo* info) {
-  if (!info) return "its entry function returns nothing";
-  if (info->abi != kAbiVersion)
-    return fmt::format("it was built for plug-in ABI {}, this pbrt has ABI {}; build it again",
-                       info->abi, kAbiVersion);
-  if (info->layout != coreFingerprint())
-    return "its data layout differs from that of this pbrt (another compiler, library version or "
-           "set of GLM options); build it again";
-  return "";
+// What the dynamic linker complains of, without the file's own name before it, and with the name of
+// the function that it misses, if any, as a person writes it.
+std::string linkerError(const fs::path& file) {
+  std::string text = dlerror();
+  if (const std::string own = file.string() + ": "; text.starts_with(own))
+    text.erase(0, own.size());
+  if (const std::size_t at = text.rfind("_Z"); at != text.npos) {
+    const std::size_t end = std::min(text.find_first_of(" ,)", at), text.size());
+    const std::unique_ptr<char, decltype(&std::free)> name(
+        abi::__cxa_demangle(text.substr(at, end - at).c_str(), nullptr, nullptr, nullptr),
+        &std::free);
+    if (name) text.replace(at, end - at, name.get());
+  }
+  return text;
 }
 
 }  // namespace
@@ -57,23 +62,23 @@ std::string_view kindName(PluginKind kind) {
 std::string_view kindFolder(PluginKind kind) {
   return kFolders.at(static_cast<std::size_t>(kind));
 }
-std::uint64_t coreFingerprint() {
-  return compiledFingerprint();
-}
 
 const PluginInfo& openPlugin(const fs::path& file) {
-  // All symbols now: a missing one must not end a render halfway. Never closed: objects live on.
-  void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle)
-    throw Error(fmt::format("{}: cannot be opened: {}", file.string(), dlerror()), Failure::plugin);
-  const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
-  if (!entry)
-    throw Error(
-        fmt::format("{}: is no pbrt plug-in (it has no function {})", file.string(), kPluginSymbol),
-        Failure::plugin);
-  const PluginInfo* info = entry();
-  if (const std::string reason = refusal(info); !reason.empty())
+  const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("{}: {}", file.string(), reason), Failure::plugin);
+  };
+  if (const std::string reason = refusal(file); !reason.empty()) refuse(reason);
+  // All symbols now: a missing one must not end a render halfway. Never closed: objects live on.
+  // A name without a folder would be looked for among the libraries of the system.
+  const fs::path whole = fs::absolute(file);
+  void* handle = dlopen(whole.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) refuse("it cannot be opened: " + linkerError(whole));
+  const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
+  if (!entry) refuse(fmt::format("it is no pbrt plug-in: it has no function {}", kPluginSymbol));
+  const PluginInfo* info = entry();
+  if (!info) refuse("its entry function returns nothing");
+  // The file may hold the stamp of something else.
+  if (const std::string reason = refusal(info->stamp); !reason.empty()) refuse(reason);
   return *info;
 }
 

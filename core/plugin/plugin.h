@@ -2,20 +2,13 @@
 // The entry point of a plug-in: the last line of its file is
 //   PBRT_PLUGIN(Shape, Sphere, "sphere", "a ball about the origin")
 
-#include "core/plugin/fingerprint.h"
+#include "core/plugin/stamp.h"
 
 namespace pbrt {
 
-// Raised by hand whenever an interface of core/api changes its meaning or its virtual functions.
-inline constexpr std::uint32_t kAbiVersion = 2;
-
-// The fingerprint that the core itself was compiled with; compare compiledFingerprint().
-std::uint64_t coreFingerprint();
-
-// What the entry function returns. The first two fields never move, in any version.
+// What the entry function returns.
 struct PluginInfo {
-  std::uint32_t abi;
-  std::uint64_t layout;
+  PluginStamp stamp;  // comes first in every version
   PluginKind kind;
   const char* name;
   const char* summary;  // one sentence for a student
@@ -45,24 +38,23 @@ void* createPlugin(Params& params, const void* setup) {
 #define PBRT_PLUGIN_EXPORT extern "C" __attribute__((visibility("default")))
 
 // Interface: Shape, Material, Light, Camera, Sampler, Filter, Integrator or Medium.
-#define PBRT_PLUGIN(Interface, Class, name, summary)                               \
-  PBRT_PLUGIN_EXPORT const pbrt::PluginInfo* pbrt_plugin() {                       \
-    static const pbrt::PluginInfo info{pbrt::kAbiVersion,                          \
-                                       pbrt::compiledFingerprint(),                \
-                                       pbrt::kindOf<pbrt::Interface>,              \
-                                       name,                                       \
-                                       summary,                                    \
-                                       pbrt::createPlugin<pbrt::Interface, Class>, \
-                                       nullptr};                                   \
-    return &info;                                                                  \
+// `constexpr` puts the stamp into the file, where the loader finds it before anything runs.
+#define PBRT_PLUGIN(Interface, Class, name, summary)                                   \
+  PBRT_PLUGIN_EXPORT const pbrt::PluginInfo* pbrt_plugin() {                           \
+    static constexpr pbrt::PluginInfo info{{},                                         \
+                                           pbrt::kindOf<pbrt::Interface>,              \
+                                           name,                                       \
+                                           summary,                                    \
+                                           pbrt::createPlugin<pbrt::Interface, Class>, \
+                                           nullptr};                                   \
+    return &info;                                                                      \
   }
 
 // Class is a template over float and Spectrum.
 #define PBRT_TEXTURE_PLUGIN(Class, name, summary)                                  \
   PBRT_PLUGIN_EXPORT const pbrt::PluginInfo* pbrt_plugin() {                       \
-    static const pbrt::PluginInfo info{                                            \
-        pbrt::kAbiVersion,                                                         \
-        pbrt::compiledFingerprint(),                                               \
+    static constexpr pbrt::PluginInfo info{                                        \
+        {},                                                                        \
         pbrt::PluginKind::texture,                                                 \
         name,                                                                      \
         summary,                                                                   \

@@ -1,37 +1,36 @@
 // Compiled several times, each time wrong in one way.
 
-#include "core/plugin/plugin.h"
+#include <cstdlib>
 
-extern "C" void nowhereDefined();
+#include "core/plugin/plugin.h"
+#include "nowhere.h"
 
 namespace {
 
 using pbrt::PluginInfo;
 using pbrt::PluginKind;
 
-#ifdef MISSING_SYMBOL
-void* create(pbrt::Params&, const void*) {
-  nowhereDefined();
-  return nullptr;
-}
-#else
-void* create(pbrt::Params&, const void*) {
-  return nullptr;
+#ifdef ENDS_THE_PROCESS
+[[gnu::constructor]] void runsWhenOpened() {
+  std::abort();
 }
 #endif
 
-[[maybe_unused]] PluginInfo describe() {
-  PluginInfo info{pbrt::kAbiVersion,
-                  pbrt::compiledFingerprint(),
-                  PluginKind::filter,
-                  PLUGIN_NAME,
-                  "",
-                  create,
-                  nullptr};
-#if defined(OTHER_ABI)
-  ++info.abi;
+void* create(pbrt::Params&, const void*) {
+#if defined(MISSING_SYMBOL) || defined(MISSING_LIBRARY)
+  nowhere::defined(1);
+#endif
+  return nullptr;
+}
+
+consteval PluginInfo describe() {
+  PluginInfo info{{}, PluginKind::filter, PLUGIN_NAME, "", create, nullptr};
+#if defined(NO_STAMP)
+  info.stamp.magic = {};
+#elif defined(OTHER_ABI)
+  ++info.stamp.abi;
 #elif defined(OTHER_LAYOUT)
-  ++info.layout;
+  ++info.stamp.layout;
 #elif defined(OTHER_KIND)
   info.kind = PluginKind::shape;
 #elif defined(OTHER_NAME)
@@ -40,6 +39,8 @@ void* create(pbrt::Params&, const void*) {
   return info;
 }
 
+constexpr PluginInfo kInfo = describe();
+
 }  // namespace
 
 #ifdef NO_ENTRY
@@ -47,10 +48,15 @@ PBRT_PLUGIN_EXPORT const PluginInfo* other_function() {
 #else
 PBRT_PLUGIN_EXPORT const PluginInfo* pbrt_plugin() {
 #endif
-#ifdef RETURNS_NOTHING
-  return nullptr;
+#if defined(RETURNS_NOTHING)
+  // Its stamp is in the file none the less.
+  static const PluginInfo* volatile unused = &kInfo;
+  return unused ? nullptr : &kInfo;
+#elif defined(OTHER_ANSWER)
+  static PluginInfo other = kInfo;
+  ++other.stamp.abi;
+  return &other;
 #else
-  static const PluginInfo info = describe();
-  return &info;
+return &kInfo;
 #endif
 }

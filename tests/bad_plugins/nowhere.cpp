@@ -1,0 +1,7 @@
+#include "nowhere.h"
+
+namespace nowhere {
+
+void defined(int) {}
+
+}  // namespace nowhere
