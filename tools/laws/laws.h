@@ -5,6 +5,9 @@
 
 namespace pbrt::laws {
 
+// Of every plug-in, whatever its kind.
+std::span<const Law> commonLaws();
+
 std::span<const Law> shapeLaws();
 std::span<const Law> materialLaws();
 std::span<const Law> textureLaws();
@@ -15,7 +18,7 @@ std::span<const Law> filterLaws();
 std::span<const Law> integratorLaws();
 std::span<const Law> volumeLaws();
 
-// Those of a kind, in the order in which they are best read.
+// Those of a kind, in the order in which they are best read; the common ones come before them.
 std::span<const Law> lawsOf(PluginKind kind);
 
 }  // namespace pbrt::laws
