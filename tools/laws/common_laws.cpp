@@ -14,6 +14,13 @@ std::string messageOf(const Error& error) {
   return error.diagnostics().empty() ? error.what() : error.diagnostics().front().message;
 }
 
+void isMade(const Subject& subject, Judge& judge) {
+  Params reader(subject.plugin->name, {}, {&subject.params});
+  make(*subject.plugin, reader);
+  reader.refuseUnread();
+  judge.expect(true, "");
+}
+
 void describesItself(const Subject& subject, Judge& judge) {
   judge.expect(!std::string_view(subject.plugin->summary).empty(),
                "its summary, the last word of PBRT_PLUGIN, is empty");
@@ -122,6 +129,7 @@ void namesWhatItNeeds(const Subject& subject, Judge& judge) {
 }
 
 constexpr Law kLaws[] = {
+    {kMade, "It can be made with these parameters, and reads them all.", isMade},
     {"describes-itself", "It has a summary, and each parameter a name of its own and a meaning.",
      describesItself},
     {"reads-what-it-declares", "Each parameter that it declares is read, and takes its default.",

@@ -5,7 +5,9 @@
 
 namespace pbrt::laws {
 
-// Of every plug-in, whatever its kind.
+// Of every plug-in, whatever its kind. The first throws Error if it cannot be made: then no other
+// law has anything to go by.
+inline constexpr std::string_view kMade = "is-made";
 std::span<const Law> commonLaws();
 
 std::span<const Law> shapeLaws();
