@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/scene/translation.h"
-#include "laws/making.h"
+#include "tools/laws/making.h"
 
 namespace pbrt {
 
