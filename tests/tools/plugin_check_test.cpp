@@ -128,6 +128,13 @@ TEST(PluginCheck, LooksAtTheNameAndTheFolder) {
   EXPECT_THAT(o.out, HasSubstr("it is a shape, but lies in the folder lights"));
 }
 
+TEST(PluginCheck, TakesAFileOfThisFolder) {
+  const Folder folder;
+  std::filesystem::copy(kGood, folder.path() / "sphere.so");
+  const Outcome o = folder.command(PBRT_BUILD_DIR "/bin/pbrt-plugin check --quiet sphere.so");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
 TEST(PluginCheck, ListsLaws) {
   const Outcome o = check("--list " + kFlawed);
   EXPECT_EQ(o.code, 0);

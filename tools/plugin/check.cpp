@@ -12,6 +12,7 @@
 namespace pbrt {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using laws::Judge;
 using laws::Law;
@@ -49,7 +50,7 @@ Answer ask(const CheckOptions& o, Verdict& verdict, Ask question) {
       [&] {
         Json reply;
         try {
-          reply["answer"] = question(openPlugin(o.file));
+          reply["answer"] = question(openPlugin(fs::absolute(o.file)));
         } catch (const Error& error) {
           reply["error"] = textOf(error);
           reply["code"] = static_cast<int>(error.failure());
@@ -97,7 +98,6 @@ Introduction introduce(const CheckOptions& o) {
 
 // A scene finds it by its name, in a folder of its kind.
 Verdict isFound(const CheckOptions& o, const Introduction& plugin) {
-  namespace fs = std::filesystem;
   Judge judge;
   const fs::path file = fs::absolute(o.file);
   const std::string folder = file.parent_path().filename().string();
