@@ -115,7 +115,7 @@ struct Dual {
 
   // The innermost value.
   double number() const requires(!std::is_same_v<S, Range>) {
-    if constexpr (std::is_same_v<S, double>)
+    if constexpr (std::is_floating_point_v<S>)
       return v;
     else
       return v.number();
@@ -134,7 +134,7 @@ struct Dual {
     return make(value, [&](int i) { return slope * d[i]; });
   }
   static S whole(const S& x, int n) {
-    if constexpr (std::is_same_v<S, double>)
+    if constexpr (std::is_floating_point_v<S>)
       return n < 0 ? 1 / power(x, -n) : power(x, n);
     else
       return pow(x, n);

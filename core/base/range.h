@@ -83,8 +83,9 @@ struct Range {
 
   // What overflows was larger than all doubles, though not infinite.
   static Range outward(double lo, double hi, double relative = kUnit) {
-    return {std::min(lo, kLargest) - (relative * std::abs(lo) + kTiny),
-            std::max(hi, -kLargest) + (relative * std::abs(hi) + kTiny)};
+    lo = std::min(lo, kLargest);
+    hi = std::max(hi, -kLargest);
+    return {lo - (relative * std::abs(lo) + kTiny), hi + (relative * std::abs(hi) + kTiny)};
   }
   static Range library(double lo, double hi) { return outward(lo, hi, 8 * kUnit); }
   static Range notBelow(double least, Range x) {
