@@ -26,6 +26,7 @@ struct Range {
   bool contains(double x) const { return lo <= x && x <= hi; }
   bool bounded() const { return std::isfinite(lo) && std::isfinite(hi); }
   double width() const { return hi - lo; }
+  double middle() const { return 0.5 * lo + 0.5 * hi; }
   // The greatest absolute value.
   double magnitude() const { return std::max(-lo, hi); }
 
@@ -72,8 +73,14 @@ struct Range {
     if (!(x.hi > 0)) return none();
     return library(std::log(std::max(x.lo, 0.0)), std::log(x.hi));
   }
-  friend Range sin(const Range& x) { return wave(x, 0.25, std::sin(x.lo), std::sin(x.hi)); }
-  friend Range cos(const Range& x) { return wave(x, 0, std::cos(x.lo), std::cos(x.hi)); }
+  friend Range sin(const Range& x) {
+    if (x.width() < kThin) return waveAbout(std::sin(x.middle()), x);
+    return wave(x, 0.25, std::sin(x.lo), std::sin(x.hi));
+  }
+  friend Range cos(const Range& x) {
+    if (x.width() < kThin) return waveAbout(std::cos(x.middle()), x);
+    return wave(x, 0, std::cos(x.lo), std::cos(x.hi));
+  }
 
  private:
   // A double result is off by half a unit in the last place at most: less than
@@ -99,6 +106,12 @@ struct Range {
     if (std::isnan(sum)) return x.empty() || y.empty() ? none() : all();
     return outward(std::min(std::min(a, b), std::min(c, d)),
                    std::max(std::max(a, b), std::max(c, d)));
+  }
+  // Over less than this, the slope of a wave, at most 1, tells enough from the middle.
+  static constexpr double kThin = 0x1p-40;
+  static Range waveAbout(double middle, const Range& x) {
+    const Range r = library(middle - x.width(), middle + x.width());
+    return {std::max(r.lo, -1.0), std::min(r.hi, 1.0)};
   }
   // cos(x - 2 pi peak): 1 where x / 2 pi - peak is an integer, -1 half a turn away; `a` and `b` are
   // its values at the ends. The turns are off by less than 2^-50 of themselves.

@@ -124,11 +124,10 @@ double Search::refined(Part p, bool rising) const {
   double s = p.middle();
   for (int i = 0; i < 100 && p.b - p.a > enough_; ++i) {
     const FieldPoint f = at(s);
+    const double step = -f.value / glm::dot(f.gradient, piece_.u);
+    if (std::abs(step) <= enough_) return s + step;
     ((f.value < 0) == rising ? p.a : p.b) = s;
-    const double last = s;
-    s -= f.value / glm::dot(f.gradient, piece_.u);
-    if (!(s > p.a && s < p.b)) s = p.middle();
-    if (std::abs(s - last) <= enough_) break;
+    s = s + step > p.a && s + step < p.b ? s + step : p.middle();
   }
   return s;
 }
