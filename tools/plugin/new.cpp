@@ -117,7 +117,7 @@ fs::path writeProject(const NewPlugin& plugin) {
       {"@FOLDER@", folder},
       {"@HEADER@", plugin.kind == PluginKind::volume ? "medium" : kind},
       {"@PATHS@",
-       plugin.prefix.empty() ? "" : fmt::format(" PATHS [==[{}]==]", plugin.prefix.string())},
+       plugin.prefix.empty() ? "" : fmt::format(" PATHS [[{}]]", plugin.prefix.string())},
   };
   const TemporaryFolder temporary(plugin.into);
   const fs::path made = temporary.path() / plugin.name;
