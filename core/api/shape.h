@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/api/implicit.h"
 #include "core/api/interaction.h"
 #include "core/base/bounds.h"
 
@@ -86,6 +87,7 @@ class Shape {
   virtual const AreaSampler* areaSampler() const { return nullptr; }  // may be an area light
   virtual TriangleMesh* triangles() { return nullptr; }          // traced natively; see MeshShape
   virtual const SurfaceColor* color() const { return nullptr; }  // has colours of its own
+  virtual const ImplicitField* implicit() const { return nullptr; }  // is where a field is zero
 };
 
 // A shape that is nothing but triangles: the scene takes the mesh, and never calls the rest.

@@ -7,53 +7,12 @@
 // a polynomial of degree 6 but for atoms whose support ends within the piece, and for kernels that
 // are none. Both go into the margin, which shrinks at least with the square of the piece.
 
-#include "core/base/ray.h"
+#include "core/base/segment.h"
 #include "shapes/metaballs/atom_lanes.h"
 #include "shapes/metaballs/bernstein.h"
 
 namespace pbrt::metaballs {
 inline namespace PBRT_LANES {
-
-// A piece of a ray: the points o + s u, s in [-half, half].
-struct Segment {
-  DPoint3 o{};
-  DVec3 u{};            // of unit length
-  double half = -1;     // negative: nothing
-  double error = 0;     // bound on the distance of o + s u from the ray's true point
-  double middle = 0;    // t where s = 0
-  double speed = 1;     // |d|
-  bool starts = false;  // the ray starts where s = -half
-};
-
-// The piece of the ray within the box. Rounding may lose a sliver at a face.
-inline Segment clip(const ObjectRay& ray, const DPoint3& lo, const DPoint3& hi) {
-  Segment piece;
-  double t0 = ray.tMin, t1 = ray.tMax;
-  for (int i = 0; i < 3; ++i) {
-    const double below = lo[i] - ray.o[i], above = hi[i] - ray.o[i];
-    if (ray.d[i] == 0) {
-      if (below > 0 || above < 0) return piece;
-      continue;
-    }
-    const double inverse = 1 / ray.d[i];
-    const double a = below * inverse, b = above * inverse;
-    t0 = std::max(t0, std::min(a, b));
-    t1 = std::min(t1, std::max(a, b));
-  }
-  piece.speed = glm::length(ray.d);
-  if (!(t0 <= t1) || !(piece.speed > 0 && piece.speed < kInfinity)) return piece;
-  piece.middle = 0.5 * t0 + 0.5 * t1;
-  piece.o = ray.at(piece.middle);
-  piece.u = ray.d / piece.speed;
-  piece.half = 0.5 * (t1 - t0) * piece.speed;
-  piece.starts = t0 == ray.tMin;
-  // In each coordinate t d and its sum with o are rounded, by half an epsilon of the result; a
-  // factor of two to spare.
-  const DVec3 rounded = std::abs(piece.middle) * glm::abs(ray.d) + glm::abs(piece.o);
-  piece.error = std::numeric_limits<double>::epsilon() * (rounded.x + rounded.y + rounded.z);
-  if (!(piece.error < kInfinity)) piece.half = -1;
-  return piece;
-}
 
 template <class K, class V>
 class Chord {

@@ -120,7 +120,7 @@ std::optional<double> find(std::span<const Atom> atoms, AtomList list, const Ray
   if (piece.half < 0) return {};
   const auto s = Search<K>(atoms, list, piece, query).first(-piece.half, piece.half, true);
   if (!s) return {};
-  const double t = piece.middle + std::max(-piece.half, std::min(*s, piece.half)) / piece.speed;
+  const double t = piece.t(*s);
   return t > ray.tMin && t <= ray.tMax ? std::optional(t) : std::nullopt;
 }
 
