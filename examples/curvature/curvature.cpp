@@ -16,10 +16,10 @@ class Curvature final : public SamplingIntegrator {
       : radius_(p.positive("radius", 1, "a ball of this radius is half as red as can be",
                            "scene units")) {
     constexpr std::array<std::string_view, 2> kinds = {"mean", "gaussian"};
-    gaussian_ = p.choice("curvature", kinds, "mean",
-                         "mean: of all directions; gaussian: red where both principal curvatures "
-                         "bend one way, blue where they bend opposite ways, as in a saddle") ==
-                "gaussian";
+    gaussian_ =
+        p.choice("curvature", kinds, "mean",
+                 "mean: of all directions; gaussian: red where both principal curvatures "
+                 "bend one way, blue where they bend opposite ways, as in a saddle") == "gaussian";
   }
 
   bool usesLights() const override { return false; }
