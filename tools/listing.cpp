@@ -7,68 +7,12 @@
 #include <sstream>
 
 #include "core/scene/translation.h"
+#include "laws/making.h"
 #include "tools/kind_by_name.h"
 
 namespace pbrt {
 
 namespace {
-
-class NoSurface final : public AreaSampler {
- public:
-  double area() const override { return 1; }
-  AreaSample sample(const DPoint3&, Point2) const override { return {}; }
-  float pdf(const DPoint3&, const DPoint3&, const Normal3&) const override { return 0; }
-  bool mayHit(const DPoint3&, const DVec3&) const override { return false; }
-};
-
-class NoLight final : public SamplingIntegrator {
- public:
-  Spectrum Li(const World&, const RayDifferential&, const Hit&, Sampler&, Scratch&) const override {
-    return Spectrum(0);
-  }
-};
-
-// Lets the plug-in read its parameters once, with nothing given. An object may come of it or not.
-std::vector<Declaration> declarations(const PluginInfo& plugin, PluginKind kind) {
-  std::vector<Declaration> found;
-  Params params = Params::describing(plugin.name, found);
-  const NoSurface surface;
-  const NoLight light;
-  try {
-    switch (kind) {
-      case PluginKind::shape:
-        create<Shape>(plugin, params, {});
-        break;
-      case PluginKind::material:
-        create<Material>(plugin, params, {});
-        break;
-      case PluginKind::texture:
-        create<Texture<Spectrum>>(plugin, params, {});
-        break;
-      case PluginKind::light:
-        create<Light>(plugin, params, {{}, &surface});
-        break;
-      case PluginKind::camera:
-        create<Camera>(plugin, params, {{}, {1, 1}});
-        break;
-      case PluginKind::sampler:
-        create<Sampler>(plugin, params, {});
-        break;
-      case PluginKind::filter:
-        create<Filter>(plugin, params, {});
-        break;
-      case PluginKind::integrator:
-        create<Integrator>(plugin, params, {&light});
-        break;
-      case PluginKind::volume:
-        create<Medium>(plugin, params, {});
-        break;
-    }
-  } catch (const Error&) {
-    // Required parameters have no values here; what was declared before is what counts.
-  }
-  return found;
-}
 
 // The words of a text.
 std::vector<std::string> split(std::string_view text) {
@@ -115,7 +59,7 @@ std::string chapter(const PluginInfo& plugin, PluginKind kind) {
   const std::string place = fmt::format("shelf/{}/{}", kindFolder(kind), plugin.name);
   std::string text = fmt::format("\n### {0} {1}\n\n[![{0} \"{1}\"]({2}.png)]({2}.pbrt)\n\n{3}\n",
                                  kindName(kind), plugin.name, place, inMarkdown(plugin.summary));
-  const auto parameters = declarations(plugin, kind);
+  const auto parameters = laws::declarationsOf(plugin);
   if (parameters.empty()) return text;
   text += "\n| parameter | default | meaning |\n| --- | --- | --- |\n";
   for (const Declaration& d : parameters)
@@ -152,7 +96,7 @@ std::string describePlugin(PluginLoader& loader, const std::string& kindText,
   const PluginKind kind = kindByName(kindText);
   const PluginInfo& plugin = loader.open(kind, name);
   std::string text = fmt::format("{} \"{}\": {}\n", kindName(kind), plugin.name, plugin.summary);
-  for (const Declaration& d : declarations(plugin, kind)) {
+  for (const Declaration& d : laws::declarationsOf(plugin)) {
     const std::string fallback =
         d.defaultValue == "-" ? "" : fmt::format(" (default {})", d.defaultValue);
     const std::string unit = d.unit.empty() ? "" : fmt::format(" [{}]", d.unit);

@@ -1,12 +1,10 @@
 // Shapes in place where numbers are hardest: far from the origin, under transforms that are nearly
-// singular, sheared or mirrored, and met by rays in planes of the coordinates. The oracle is a
-// sphere or a plane in 113 bits.
+// singular, sheared or mirrored. The oracle is a sphere in 113 bits.
 
 #include "core/scene/accel.h"
 #include "core/scene/mesh.h"
 #include "core/scene/placement.h"
 #include "tests/scenes.h"
-#include "tests/shapes/conformance.h"
 #include "tests/shapes/quadrics.h"
 
 namespace pbrt {
@@ -196,65 +194,6 @@ TEST(Extreme, NearlySingularShearedAndMirroredTransforms) {
     EXPECT_LE(e.normal, 2e-6) << row.what;
   }
 }
-
-class Planes : public test::Shapes {};
-
-// Along an axis or in a plane of the coordinates, from near and from 1e6 sizes away, also from the
-// surface itself: what is hit lies on the ray, and nothing is not a number.
-TEST_P(Planes, RaysInPlanesOfTheCoordinates) {
-  int hits = 0;
-  for (int i = 0; i < 20000; ++i) {
-    DVec3 d(uniformSphere({rng_.uniform(), rng_.uniform()}));
-    for (int k = 0; k <= i % 2; ++k) d[(i + k) % 3] = i % 4 < 2 ? 0.0 : -0.0;
-    DPoint3 to = inBox();
-    if (i % 3 == 0) to[i % 3] = centre_[i % 3];  // often the plane of symmetry
-    const double distance = i % 5 ? 3 : 1e6;
-    ObjectRay r{to - distance * size_ * d, d * (0.5 + rng_.uniform())};
-    for (int again = 0; again < 2; ++again) {
-      const auto found = nearest(r);
-      if (!found) break;
-      ++hits;
-      const SurfacePoint s = shape_->surface(r, found->hit);
-      ASSERT_TRUE(std::isfinite(s.p.x + s.p.y + s.p.z) && std::isfinite(s.error));
-      for (const Vec3& v : {s.n, s.dpdu, s.dpdv, s.dndu, s.dndv}) ASSERT_TRUE(isFinite(v));
-      EXPECT_NEAR(glm::length(s.n), 1, 1e-5);
-      const double length = glm::length(r.d), t = found->hit.t;
-      const DVec3 off = s.p - r.at(t);
-      // Across the ray; along it, t is a float.
-      const double across = glm::length(off - glm::dot(off, r.d) / (length * length) * r.d);
-      const double error = GetParam().row.facingWidth > 0 ? 0 : s.error;
-      const double rounding = 1e-9 * size_ + 1e-15 * t * length;
-      const double cosine = std::abs(glm::dot(r.d / length, DVec3(s.n)));
-      EXPECT_LE(across, (error + rounding) / std::max(1e-3, cosine));
-      r.o = s.p, r.tMin = 0;  // on from the very point
-    }
-  }
-  EXPECT_GT(hits, 2000);
-}
-
-// Rays that leave along the surface, at 1e-7 of a right angle over it or under it: those that
-// leave above a convex surface meet nothing.
-TEST_P(Planes, RaysThatGrazeAtATenMillionth) {
-  forHits(5000, [&](const ObjectRay&, const test::Found&, const SurfacePoint& s) {
-    const DVec3 n(s.n), any(uniformSphere({rng_.uniform(), rng_.uniform()}));
-    const DVec3 along = glm::cross(n, any);
-    if (!(glm::length(along) > 0.1)) return;
-    for (const double side : {1.0, -1.0}) {
-      const DVec3 w = glm::normalize(along) + side * 2e-7 * n;  // n is a float: good to 6e-8
-      const auto found = nearest({s.p + side * s.error * n, w});
-      if (found) {
-        const SurfacePoint q = shape_->surface({s.p + side * s.error * n, w}, found->hit);
-        EXPECT_TRUE(isFinite(q.n) && std::isfinite(q.error));
-      }
-      EXPECT_FALSE(found && side > 0 && GetParam().row.convex) << found->hit.t;
-    }
-  });
-}
-
-INSTANTIATE_TEST_SUITE_P(Every, Planes, testing::ValuesIn(test::casesWhere([](Shape& s) {
-                           return !s.triangles();
-                         })),
-                         test::caseName);
 
 }  // namespace
 }  // namespace pbrt

@@ -58,7 +58,7 @@ class Placed {
 class SelfHits : public testing::TestWithParam<std::string> {};
 
 TEST_P(SelfHits, NoneInAMillionRays) {
-  std::vector<Case> cases = test::casesWhere([](Shape&) { return true; });
+  std::vector<Case> cases = test::cases();
   std::erase_if(cases, [](const Case& c) { return c.shape != GetParam(); });
   ASSERT_FALSE(cases.empty());
   const int starts = 1'000'000 / 16 / static_cast<int>(cases.size()) + 1;
@@ -75,7 +75,7 @@ TEST_P(SelfHits, NoneInAMillionRays) {
       // What bends meets itself soon if left along it, at 2 cos / curvature: near a tip that is
       // within its error. What faces every ray is left by its width: any hit within it is one too
       // many.
-      const bool facing = c.row.facingWidth > 0;
+      const bool facing = c.row.traits.facingWidth > 0;
       const float soon = facing ? 0.01F : 20;
       if (!facing && glm::length(s.dndu) * s.error > 5e-4F * glm::length(s.dpdu)) continue;
       ++found;

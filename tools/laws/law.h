@@ -47,7 +47,16 @@ class Judge {
 
 // What a plug-in is known to be, where laws cannot tell by themselves. The defaults are the
 // strictest.
-struct Traits {};
+struct Traits {
+  // Shapes: no ray that leaves outward meets it again. A promise more.
+  bool convex = false;
+  // Shapes that turn towards every ray. Such a one is where the ray that met it saw it, and its
+  // points' errors say how far off other rays may see it: half of this width off, and as much for
+  // the normal's tilt.
+  double facingWidth = 0;
+  // Shapes: its normals, and what dp/dv is across, are those of a tube about it.
+  bool looksRound = false;
+};
 
 // A plug-in and the parameters that it is made with.
 struct Subject {
@@ -55,14 +64,15 @@ struct Subject {
   ParamList params;
   Traits traits;
 
-  // As a scene would make it, with `more` parameters behind its own. Throws Error, for parameters
-  // that nobody reads as well.
+  // As a scene would make it, with `more` parameters behind its own; not null. Throws Error, for
+  // parameters that nobody reads as well.
   template <class Interface>
   std::unique_ptr<Interface> make(const typename Interface::Setup& setup = {},
                                   const ParamList& more = {}) const {
     Params reader(plugin->name, {}, {&params, &more});
     auto object = create<Interface>(*plugin, reader, setup);
-    reader.refuseUnread();
+    if (!object) throw Error("its create() gives no object", Failure::plugin);
+    for (const std::size_t list : {0, 1}) reader.refuseUnread(list);
     return object;
   }
 };

@@ -5,6 +5,11 @@
 
 namespace pbrt::laws {
 
+// Of every plug-in, whatever its kind. The first throws Error if it cannot be made: then no other
+// law has anything to go by.
+inline constexpr std::string_view kMade = "is-made";
+std::span<const Law> commonLaws();
+
 std::span<const Law> shapeLaws();
 std::span<const Law> materialLaws();
 std::span<const Law> textureLaws();
@@ -15,7 +20,7 @@ std::span<const Law> filterLaws();
 std::span<const Law> integratorLaws();
 std::span<const Law> volumeLaws();
 
-// Those of a kind, in the order in which they are best read.
+// Those of a kind, in the order in which they are best read; the common ones come before them.
 std::span<const Law> lawsOf(PluginKind kind);
 
 }  // namespace pbrt::laws

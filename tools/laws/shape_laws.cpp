@@ -1,11 +1,16 @@
-// The laws of every shape.
-
-#include "laws.h"
+#include "shape_laws.h"
 
 namespace pbrt::laws {
 
 std::span<const Law> shapeLaws() {
-  return {};
+  static const std::vector<Law> all = [] {
+    std::vector<Law> laws;
+    for (const auto& part :
+         {shapeHitLaws(), shapeSurfaceLaws(), shapeObjectLaws(), shapeAreaLaws(), meshLaws()})
+      laws.insert(laws.end(), part.begin(), part.end());
+    return laws;
+  }();
+  return all;
 }
 
 }  // namespace pbrt::laws

@@ -7,7 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/base/replacement.h"
+#include "core/plugin/loader.h"
 #include "templates.h"
+#include "tools/kind_by_name.h"
 
 namespace pbrt {
 
@@ -102,20 +104,21 @@ class TemporaryFolder {
 }  // namespace
 
 fs::path writeProject(const NewPlugin& plugin) {
+  const PluginKind asked = kindByName(plugin.kind);
+  const std::string kind(kindName(asked)), folder(kindFolder(asked));
   checkName(plugin.name);
   const fs::path target = plugin.into / plugin.name;
   std::error_code error;
   if (fs::exists(fs::symlink_status(target, error)))
     throw Error(fmt::format("{} is there already", target.string()), Failure::usage);
 
-  const std::string kind(kindName(plugin.kind)), folder(kindFolder(plugin.kind));
   const std::string_view source = textOf(kind + ".cpp");
   const Places places = {
       {"@NAME@", plugin.name},
       {"@CLASS@", className(plugin.name, kind, source)},
       {"@KIND@", kind},
       {"@FOLDER@", folder},
-      {"@HEADER@", plugin.kind == PluginKind::volume ? "medium" : kind},
+      {"@HEADER@", asked == PluginKind::volume ? "medium" : kind},
       {"@PATHS@",
        plugin.prefix.empty() ? "" : fmt::format(" PATHS [[{}]]", plugin.prefix.string())},
   };
@@ -134,6 +137,34 @@ fs::path writeProject(const NewPlugin& plugin) {
   if (error)
     throw Error(fmt::format("cannot make {}: {}", target.string(), error.message()), Failure::io);
   return target;
+}
+
+CLI::App* addNew(CLI::App& app, NewPlugin& plugin) {
+  CLI::App* make = app.add_subcommand(
+      "new", "Write a small project of a new plug-in, which builds, renders and tests it");
+  make->add_option("kind", plugin.kind,
+                   "shape, integrator, material, light, texture, sampler, filter, camera or volume")
+      ->required();
+  make->add_option("name", plugin.name, "As scenes will call it: letters, digits, _ and -")
+      ->required();
+  make->add_option("--into", plugin.into, "Where its folder is made (default: here)");
+  return make;
+}
+
+int writeNew(NewPlugin plugin) {
+  plugin.prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
+  const std::string folder = writeProject(plugin).lexically_normal().string();
+  const PluginKind kind = kindByName(plugin.kind);
+  if (PluginLoader(PluginLoader::searchPath("")).has(kind, plugin.name))
+    fmt::print(stderr,
+               "warning: pbrt itself has a {} \"{}\": yours goes before it, where --plugin-path "
+               "leads to yours\n",
+               kindName(kind), plugin.name);
+  fmt::print(
+      "{0}: {1}.cpp, {1}.pbrt, CMakeLists.txt, README.md. To build and to test it:\n"
+      "  cmake -S {0} -B {0}/build && cmake --build {0}/build && ctest --test-dir {0}/build\n",
+      folder, plugin.name);
+  return 0;
 }
 
 }  // namespace pbrt

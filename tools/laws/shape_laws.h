@@ -1,0 +1,17 @@
+#pragma once
+// The laws of shapes, by what they ask. Those of another sort of shape skip themselves.
+
+#include "laws.h"
+
+namespace pbrt::laws {
+
+// Of shapes that are asked ray by ray.
+std::span<const Law> shapeHitLaws();
+std::span<const Law> shapeSurfaceLaws();
+std::span<const Law> shapeObjectLaws();
+// Of those that can be area lights.
+std::span<const Law> shapeAreaLaws();
+// Of those that are handed over as triangles.
+std::span<const Law> meshLaws();
+
+}  // namespace pbrt::laws

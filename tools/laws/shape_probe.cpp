@@ -1,0 +1,33 @@
+#include "shape_probe.h"
+
+namespace pbrt::laws {
+
+ShapeProbe::ShapeProbe(const Subject& subject)
+    : traits_(subject.traits), shape_(subject.make<Shape>()) {
+  if (shape_->triangles()) return;
+  for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
+    if (const Bounds3 b = shape_->bounds(i); !b.empty()) box_.add(b);
+  if (box_.empty()) return;
+  centre_ = DPoint3(box_.lo) * 0.5 + DPoint3(box_.hi) * 0.5;
+  size_ = glm::length(DVec3(box_.hi) - DVec3(box_.lo)) / 2;
+}
+
+DPoint3 ShapeProbe::inBox() {
+  const double x = uniform(), y = uniform(), z = uniform();
+  return DPoint3(box_.lo) + DVec3(x, y, z) * (DVec3(box_.hi) - DVec3(box_.lo));
+}
+
+ObjectRay ShapeProbe::ray() {
+  const DPoint3 o = uniform() < 0.8F ? around(1.01 + 4 * uniform()) : inBox();
+  return {o, (inBox() - o) * (0.2 + 2 * uniform())};
+}
+
+std::optional<Found> ShapeProbe::nearest(const ObjectRay& ray) const {
+  std::optional<Found> best;
+  for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
+    if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
+      best = Found{*hit, i};
+  return best;
+}
+
+}  // namespace pbrt::laws

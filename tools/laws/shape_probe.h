@@ -1,0 +1,117 @@
+#pragma once
+// A shape under test, and the rays that are sent at it.
+
+#include "core/base/rng.h"
+#include "core/base/warp.h"
+#include "law.h"
+#include "show.h"
+
+namespace pbrt::laws {
+
+inline std::string show(const DVec3& v) {
+  return fmt::format("({}, {}, {})", v.x, v.y, v.z);
+}
+inline std::string show(const ObjectRay& r) {
+  return fmt::format("the ray o {} d {} with t from {} to {}", show(r.o), show(r.d), r.tMin,
+                     r.tMax);
+}
+
+// A hit, and the primitive that reported it.
+struct Found {
+  ShapeHit hit;
+  std::uint32_t primitive = 0;
+};
+
+// What may go wrong now and then, by rounding at an edge.
+class Tally {
+ public:
+  template <class... Args>
+  void expect(bool ok, fmt::format_string<Args...> what, Args&&... args) {
+    ++tried_;
+    if (ok) return;
+    if (wrong_++ == 0) example_ = fmt::format(what, std::forward<Args>(args)...);
+  }
+  int tried() const { return tried_; }
+  void judge(Judge& judge, int allowed) const {
+    judge.expect(wrong_ <= allowed, "{} of {}, where at most {} may: {}", wrong_, tried_, allowed,
+                 example_);
+  }
+
+ private:
+  int tried_ = 0, wrong_ = 0;
+  std::string example_;
+};
+
+class ShapeProbe {
+ public:
+  static constexpr int kHits = 5000;
+
+  // Throws Error if the shape cannot be made.
+  explicit ShapeProbe(const Subject& subject);
+
+  Shape& shape() { return *shape_; }
+  const Shape& shape() const { return *shape_; }
+  const Traits& traits() const { return traits_; }
+  const DPoint3& centre() const { return centre_; }  // of the box around all primitives
+  double size() const { return size_; }              // half of that box's diagonal
+  // Nothing to aim at: no primitive is there, or the bounds have no size.
+  bool empty() const { return !(size_ > 0 && std::isfinite(size_)); }
+
+  float uniform() { return rng_.uniform(); }
+  Point2 uniform2() { return {rng_.uniform(), rng_.uniform()}; }
+  DVec3 direction() { return uniformSphere(uniform2()); }
+  DPoint3 around(double radii) { return centre_ + radii * size_ * direction(); }
+  DPoint3 inBox();
+  // One that is likely to hit: from outside, sometimes from within.
+  ObjectRay ray();
+
+  // How much farther than rounding a point may be from where its ray saw it.
+  double errorOf(const SurfacePoint& s) const { return traits_.facingWidth > 0 ? 0 : s.error; }
+
+  std::optional<Found> nearest(const ObjectRay& ray) const;
+  // Visits all crossings along a ray, each once: visit(point).
+  template <class Visit>
+  void crossings(ObjectRay ray, Visit visit) const {
+    while (const auto found = nearest(ray)) {
+      visit(shape_->surface(ray, found->hit));
+      if (!(found->hit.t >= ray.tMin)) return;  // another law tells that
+      ray.tMin = std::nextafter(found->hit.t, kInfinity);
+    }
+  }
+  // Calls visit(ray, found, point) for so many hits.
+  template <class Visit>
+  void forHits(int count, Judge& judge, Visit visit) {
+    int hits = 0;
+    for (int tries = 0; hits < count && tries < 100 * count; ++tries) {
+      const ObjectRay r = ray();
+      const auto found = nearest(r);
+      if (!found) continue;
+      ++hits;
+      visit(r, *found, shape_->surface(r, found->hit));
+    }
+    judge.expect(hits == count,
+                 "the shape is hardly ever hit within its bounds: {} times by {} "
+                 "rays at points of the box about {}, of half the diagonal {}",
+                 hits, 100 * count, show(centre_), size_);
+  }
+
+ private:
+  Traits traits_;
+  std::unique_ptr<Shape> shape_;
+  Bounds3 box_;
+  DPoint3 centre_{0};
+  double size_ = 0;
+  Rng rng_{7};
+};
+
+// Laws of shapes that are asked ray by ray, as functions of a probe.
+template <void (*body)(ShapeProbe&, Judge&)>
+void traced(const Subject& subject, Judge& judge) {
+  ShapeProbe probe(subject);
+  if (probe.shape().triangles()) return judge.skip("it is handed over as triangles");
+  if (probe.empty())
+    return judge.fail("the box around its primitives is empty or infinite: it is nowhere");
+  body(probe, judge);
+}
+
+}  // namespace pbrt::laws
