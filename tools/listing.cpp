@@ -7,23 +7,12 @@
 #include <sstream>
 
 #include "core/scene/translation.h"
+#include "tools/kind_by_name.h"
 #include "tools/laws/making.h"
 
 namespace pbrt {
 
 namespace {
-
-PluginKind kindByName(const std::string& name) {
-  std::vector<std::string> names;
-  for (std::uint32_t i = 0; i < kPluginKinds; ++i) {
-    const auto kind = static_cast<PluginKind>(i);
-    if (name == kindName(kind) || name == kindFolder(kind)) return kind;
-    names.emplace_back(kindName(kind));
-  }
-  throw Error(fmt::format("there is no kind of plug-in \"{}\" (it is one of {}){}", name,
-                          fmt::join(names, ", "), didYouMean(name, names)),
-              Failure::usage);
-}
 
 // The words of a text.
 std::vector<std::string> split(std::string_view text) {
