@@ -47,7 +47,12 @@ class Judge {
 
 // What a plug-in is known to be, where laws cannot tell by themselves. The defaults are the
 // strictest.
-struct Traits {};
+struct Traits {
+  // Samplers: points are independent of one another, even those of one pixel.
+  bool independentNumbers = false;
+  // Filters: the weight jumps, at the edge for one.
+  bool hasSteps = false;
+};
 
 // A plug-in and the parameters that it is made with.
 struct Subject {
