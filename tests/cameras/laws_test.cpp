@@ -1,19 +1,23 @@
-// What every camera must do: tools/laws/camera_laws.cpp.
+// Every camera that can be found obeys the laws of cameras.
 
 #include "tests/cameras/lenses.h"
-#include "tests/every_law.h"
+#include "tests/law_sets.h"
 
 namespace pbrt::test {
 namespace {
 
-std::vector<laws::Subject> forms(const PluginInfo& camera) {
-  if (std::string_view(camera.name) == "realistic")
-    return {{&camera, {text("lensfile", kDoubleGauss)}}};
-  return {{&camera}};
+class CameraLaws : public testing::TestWithParam<LawCase> {};
+
+TEST_P(CameraLaws, Hold) {
+  const LawCase& c = GetParam();
+  ParamList required;
+  if (c.subject.plugin->name == std::string("realistic"))
+    required = {text("lensfile", kDoubleGauss)};
+  obeyWithEach(c, {required});
 }
 
-INSTANTIATE_TEST_SUITE_P(Cameras, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::camera, forms)),
-                         EveryLaw::name);
+INSTANTIATE_TEST_SUITE_P(Every, CameraLaws, testing::ValuesIn(lawCases(PluginKind::camera)),
+                         nameOf);
 
 // Thin lenses lose no light.
 TEST(FlatCameras, HaveFullWeight) {

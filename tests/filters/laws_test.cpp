@@ -1,16 +1,20 @@
-// What every filter must do, whatever its shape: tools/laws/filter_laws.cpp.
+// Every filter that can be found obeys the laws of filters.
 
-#include "tests/every_law.h"
+#include "tests/law_sets.h"
 
 namespace pbrt::test {
 namespace {
 
-std::vector<laws::Subject> forms(const PluginInfo& filter) {
-  return {{&filter, {}, {.hasSteps = std::string_view(filter.name) == "box"}}};
+class FilterLaws : public testing::TestWithParam<LawCase> {};
+
+TEST_P(FilterLaws, Hold) {
+  LawCase c = GetParam();
+  c.subject.traits.hasSteps = c.subject.plugin->name == std::string("box");
+  obeyWithEach(c, {{}});
 }
 
-INSTANTIATE_TEST_SUITE_P(Filters, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::filter, forms)),
-                         EveryLaw::name);
+INSTANTIATE_TEST_SUITE_P(Every, FilterLaws, testing::ValuesIn(lawCases(PluginKind::filter)),
+                         nameOf);
 
 }  // namespace
 }  // namespace pbrt::test

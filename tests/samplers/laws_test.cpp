@@ -1,16 +1,20 @@
-// What every sampler must do, whatever its pattern: tools/laws/sampler_laws.cpp.
+// Every sampler that can be found obeys the laws of samplers.
 
-#include "tests/every_law.h"
+#include "tests/law_sets.h"
 
 namespace pbrt::test {
 namespace {
 
-std::vector<laws::Subject> forms(const PluginInfo& sampler) {
-  return {{&sampler, {}, {.independentNumbers = std::string_view(sampler.name) == "random"}}};
+class SamplerLaws : public testing::TestWithParam<LawCase> {};
+
+TEST_P(SamplerLaws, Hold) {
+  LawCase c = GetParam();
+  c.subject.traits.independentNumbers = c.subject.plugin->name == std::string("random");
+  obeyWithEach(c, {{}});
 }
 
-INSTANTIATE_TEST_SUITE_P(Samplers, EveryLaw,
-                         testing::ValuesIn(everyLaw(PluginKind::sampler, forms)), EveryLaw::name);
+INSTANTIATE_TEST_SUITE_P(Every, SamplerLaws, testing::ValuesIn(lawCases(PluginKind::sampler)),
+                         nameOf);
 
 }  // namespace
 }  // namespace pbrt::test

@@ -1,6 +1,6 @@
-// What every medium must do: tools/laws/volume_laws.cpp.
+// Every volume that can be found obeys the laws of volumes.
 
-#include "tests/every_law.h"
+#include "tests/law_sets.h"
 
 namespace pbrt::test {
 namespace {
@@ -31,29 +31,35 @@ std::vector<ParamList> mediumParams() {
   return {boxed, grid, unlike, flames, colours};
 }
 
-// With all lists that it takes.
-std::vector<laws::Subject> forms(const PluginInfo& volume) {
-  std::vector<laws::Subject> forms;
+// Those that a volume takes.
+std::vector<ParamList> taken(const PluginInfo& volume) {
+  std::vector<ParamList> taken;
   for (const ParamList& list : mediumParams()) try {
       make<Medium>(volume.name, list);
-      forms.push_back({&volume, list});
+      taken.push_back(list);
     } catch (const Error&) {
-      continue;  // of another kind
+      continue;  // it is for others
     }
-  return forms;
+  return taken;
 }
 
-INSTANTIATE_TEST_SUITE_P(Volumes, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::volume, forms)),
-                         EveryLaw::name);
+class VolumeLaws : public testing::TestWithParam<LawCase> {};
 
-TEST(Volumes, AreTriedAndEndWithTheirBox) {
+TEST_P(VolumeLaws, Hold) {
+  const LawCase& c = GetParam();
+  obeyWithEach(c, taken(*c.subject.plugin));
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, VolumeLaws, testing::ValuesIn(lawCases(PluginKind::volume)),
+                         nameOf);
+
+TEST(Volumes, AreAllTriedAndEndWithTheirBox) {
   std::size_t tried = 0;
-  for (const std::string& name : loader().available(PluginKind::volume)) {
-    const auto all = forms(loader().open(PluginKind::volume, name));
-    EXPECT_FALSE(all.empty()) << name;
-    for (const laws::Subject& form : all) EXPECT_TRUE(form.make<Medium>()->bounded()) << name;
-    tried += all.size();
-  }
+  for (const std::string& name : loader().available(PluginKind::volume))
+    for (const ParamList& list : taken(loader().open(PluginKind::volume, name))) {
+      EXPECT_TRUE(make<Medium>(name, list)->bounded()) << name;
+      ++tried;
+    }
   EXPECT_GE(tried, 9U);
 }
 
