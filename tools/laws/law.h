@@ -56,6 +56,10 @@ struct Traits {
   double facingWidth = 0;
   // Shapes: its normals, and what dp/dv is across, are those of a tube about it.
   bool looksRound = false;
+  // Samplers: points are independent of one another, even those of one pixel.
+  bool independentNumbers = false;
+  // Filters: the weight jumps, at the edge for one.
+  bool hasSteps = false;
 };
 
 // A plug-in and the parameters that it is made with.

@@ -2,7 +2,7 @@
 
 #include "core/api/tracking.h"
 
-#include "tests/volumes/lines.h"
+#include "tests/support.h"
 
 namespace pbrt {
 namespace {
