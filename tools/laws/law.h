@@ -47,7 +47,9 @@ class Judge {
 
 // What a plug-in is known to be, where laws cannot tell by themselves. The defaults are the
 // strictest.
-struct Traits {};
+struct Traits {
+  float albedo = 1;  // of a material: the largest share of light that its parts may add up to
+};
 
 // A plug-in and the parameters that it is made with.
 struct Subject {
