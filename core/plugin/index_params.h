@@ -20,10 +20,11 @@ class RefractiveIndex {
     if (eta) index_ = *eta;
   }
 
-  // Of a texture's odd value: 1, no boundary.
+  // Of an odd value: 1, no boundary. What is still larger or smaller has no square, or none that is
+  // above 0.
   float operator()(const SurfaceInteraction& at) const {
     const float index = index_(at);
-    return index > 0 ? index : 1;
+    return index > 1e-6F && index < 1e6F ? index : 1;
   }
   bool filters() const { return index_.filters(); }
 

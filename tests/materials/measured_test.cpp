@@ -44,14 +44,14 @@ TEST(MeasuredMaterials, ColoursAreThoseOfTheirNames) {
 TEST(MeasuredMaterials, BrushedMetalMakesNoEnergyAnyMore) {
   const Scattering metal("brushedmetal");
   for (const double angle : {70., 80., 82., 84., 88., 89.9}) {
-    Moments all;
+    Mean all;
     Rng rng(1);
     for (int i = 0; i < 40000; ++i) {
       const auto s = metal->sample(direction(angle), {rng.uniform(), rng.uniform()});
       all.add(s ? s->f.z * std::abs(s->wi.z) / s->pdf : 0);
     }
-    EXPECT_LT(all.mean, 1.005 + 4 * all.error()) << angle;
-    EXPECT_GT(all.mean, 0.4) << angle;
+    EXPECT_LT(all.mean(), 1.005 + 4 * all.error()) << angle;
+    EXPECT_GT(all.mean(), 0.4) << angle;
   }
   // Seen more steeply it is the fit: 0.488 frontally.
   EXPECT_NEAR(albedo(*metal.operator->(), {0, 0, 1}, 40000), 0.488, 0.005);

@@ -60,6 +60,7 @@ struct Traits {
   bool independentNumbers = false;
   // Filters: the weight jumps, at the edge for one.
   bool hasSteps = false;
+  float albedo = 1;  // of a material: the largest share of light that its parts may add up to
 };
 
 // A plug-in and the parameters that it is made with.

@@ -1,13 +1,11 @@
 #pragma once
-// Every material that can be found, with every set of parameters below whose names it knows.
+// The parameters with which every material is tried whose names it knows.
 
-#include <fmt/format.h>
-
-#include "tests/materials/scattering.h"
+#include "tests/support.h"
 
 namespace pbrt::test {
 
-inline std::vector<ParamList> parameterSets() {
+inline std::vector<ParamList> materialSets() {
   const Param alpha = flag("remaproughness", false), blinn = text("distribution", "blinn");
   return {
       {},
@@ -61,54 +59,6 @@ inline std::vector<ParamList> parameterSets() {
       {rgb("reflectance", 1, 1, 1), number("interface.roughness", 0.2F),
        number("conductor.roughness", 0.5F), alpha},
       {rgb("reflectance", 0.2F, 0.5F, 0.7F), rgb("transmittance", 0.8F, 0.5F, 0.1F)}};
-}
-
-// Whether its highlights are wide enough for cells of a few degrees.
-inline bool broad(const std::string& name, const ParamList& set) {
-  if (name == "metal" && set.empty()) return false;
-  for (const Param& p : set) {
-    if (p.type != ParamType::number) continue;
-    const float x = std::get<std::vector<float>>(p.values)[0];
-    if (p.name.ends_with("roughness") && (x < 0.1F || x > 10)) return false;
-    // Facets of glass spread refracted light by little.
-    if (p.name == "index" && x > 1 && x < 1.3F) return false;
-  }
-  return true;
-}
-
-// Glass has no such facets.
-inline bool isBlinn(const ParamList& set) {
-  return std::ranges::any_of(set, [](const Param& p) {
-    return p.type == ParamType::string &&
-           std::get<std::vector<std::string>>(p.values)[0] == "blinn";
-  });
-}
-
-template <class Check>
-void forEveryMaterial(Check check) {
-  const auto names = loader().available(PluginKind::material);
-  ASSERT_GE(names.size(), 5U);
-  for (const std::string& name : names) {
-    if (name == "mix") continue;  // nothing of its own: see mix_test.cpp
-    std::vector<Declaration> declared;
-    Params describing = Params::describing(name, declared);
-    create<Material>(loader().open(PluginKind::material, name), describing, {});
-    for (const ParamList& set : parameterSets()) {
-      bool known = name != "glass" || !isBlinn(set);
-      std::string label = name;
-      for (const Param& p : set) {
-        label += fmt::format(" {}", p.name);
-        if (p.type == ParamType::number)
-          label += fmt::format("={}", std::get<std::vector<float>>(p.values)[0]);
-        known &= std::any_of(declared.begin(), declared.end(),
-                             [&](const Declaration& d) { return d.name == p.name; });
-      }
-      if (!known) continue;
-      SCOPED_TRACE(label);
-      const Scattering bsdf(name, set);
-      check(name, set, *bsdf.operator->());
-    }
-  }
 }
 
 }  // namespace pbrt::test
