@@ -1,9 +1,7 @@
 // The command: reads scenes, renders, writes pictures.
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
-#include <chrono>
 #include <cstdio>
 
 #include "command.h"
@@ -14,13 +12,10 @@
 #include "listing.h"
 #include "options.h"
 #include "progress.h"
+#include "stats.h"
 
 namespace pbrt {
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // Parses the scene files. Their text is in `parser`, for messages to quote.
 void parse(Parser& parser, const std::vector<std::string>& files) {
@@ -30,31 +25,6 @@ void parse(Parser& parser, const std::vector<std::string>& files) {
     else
       parser.file(file);
   }
-}
-
-struct Times {
-  double start = now(), built = 0, rendered = 0, written = 0;
-};
-
-void printStats(const Scene& scene, const PluginLoader& loader, const RenderControl& control,
-                std::uint32_t samples, const Times& t) {
-  std::size_t available = 0;
-  for (std::uint32_t i = 0; i < kPluginKinds; ++i)
-    available += loader.available(static_cast<PluginKind>(i)).size();
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  fmt::print("Seconds   read and build {:.3f}, render {:.3f}, write {:.3f}\n", t.built - t.start,
-             t.rendered - t.built, t.written - t.rendered);
-  fmt::print("Samples   {} per pixel\n", samples);
-  fmt::print("Rays      {} ({:.2f} Mrays/s)\n", control.rays.load(),
-             static_cast<double>(control.rays) / (t.rendered - t.built) / 1e6);
-  fmt::print("Scene     {} shapes, {} lights; seed {}\n", scene.shapes(), scene.lights().size(),
-             scene.seed());
-  fmt::print("Memory    {:.1f} MiB at most\n", static_cast<double>(usage.ru_maxrss) / 1024);
-  fmt::print("Plug-ins  {} opened of {}\n", loader.opened().size(), available);
-  for (const LoadedPlugin& plugin : loader.opened())
-    fmt::print("  {}/{} ({:.2f} ms)\n", kindFolder(plugin.info->kind), plugin.info->name,
-               1e3 * plugin.seconds);
 }
 
 // The picture after so many samples per pixel and seconds.
@@ -140,15 +110,21 @@ int check(const Options& o, PluginLoader& loader) {
 int render(const Options& o, PluginLoader& loader) {
   Times t;
   SceneReader reader(loader, o.build);
-  Parser parser([&](Directive&& d) { reader.read(std::move(d)); }, includes(o));
+  const auto build = [&](auto step) {
+    const double start = now();
+    step();
+    t.build += now() - start;
+  };
+  Parser parser([&](Directive&& d) { build([&] { reader.read(std::move(d)); }); }, includes(o));
   parse(parser, o.files);
-  const auto scene = reader.finish();
+  std::unique_ptr<Scene> scene;
+  build([&] { scene = reader.finish(); });
   note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
                       reader.dialect().reason));
   std::vector<std::string> outputs = o.outputs;
   if (outputs.empty()) outputs = {scene->outputFile()};
   for (const std::string& output : outputs) checkWritable(output);
-  t.built = now();
+  t.ready = now();
 
   RenderControl control;
   control.threads = o.build.threads;
@@ -159,11 +135,11 @@ int render(const Options& o, PluginLoader& loader) {
     o.build.report({Severity::warning,
                     fmt::format("{} samples were not a number or infinite; they count as black",
                                 control.badSamples.load())});
-  writePictures(o, *scene, goal, samples, t.rendered - t.built, outputs);
+  writePictures(o, *scene, goal, samples, t.rendered - t.ready, outputs);
   t.written = now();
   if (!o.quiet) {
     for (const std::string& output : outputs) fmt::print("{}\n", output);
-    if (o.stats) printStats(*scene, loader, control, samples, t);
+    if (o.stats) fmt::print("{}", stats(std::move(scene), loader, control, samples, t));
   }
   return judge(o);
 }

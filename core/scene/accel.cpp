@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
+#include <chrono>
 #include <utility>
 
+#include "core/base/parallel.h"
 #include "core/scene/accel_query.h"
 #include "core/scene/placement.h"
 
@@ -137,9 +138,18 @@ struct Accel::UserGeometry {
   }
 };
 
+// Asked for as many threads as there are cores, or more, Embree would hold the whole process to the
+// cores.
 AccelDevice::AccelDevice(int threads)
-    : device_(rtcNewDevice(threads > 0 ? fmt::format("threads={}", threads).c_str() : nullptr)) {
+    : device_(rtcNewDevice(threads > 0 && threads < defaultThreads()
+                               ? fmt::format("threads={}", threads).c_str()
+                               : nullptr)) {
   if (!device_) check(nullptr, "starting the ray tracer");
+  const auto count = [](void* bytes, ssize_t more, bool) {
+    static_cast<std::atomic<std::int64_t>*>(bytes)->fetch_add(more, std::memory_order_relaxed);
+    return true;  // Embree may go on
+  };
+  rtcSetDeviceMemoryMonitorFunction(device(device_), count, &bytes_);
 }
 
 AccelDevice::~AccelDevice() {
@@ -219,7 +229,9 @@ void Accel::addInstance(const Accel& instance, std::span<const Motion::Key> keys
 
 void Accel::build(const MotionTimes& times) {
   times_ = times;
+  const auto start = std::chrono::steady_clock::now();
   rtcCommitScene(scene(scene_));
+  buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   check(device(device_), "building the ray tree");
   for (const auto& user : users_)
     if (user->reachesTooFar) throw tooFar(user->where, kReach, "the shape reaches");

@@ -1,6 +1,7 @@
 #pragma once
 // The ray tree. accel.cpp, with accel_query.h, is the only file that knows Embree (3 or 4).
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -22,9 +23,13 @@ class AccelDevice {
   AccelDevice(const AccelDevice&) = delete;
   AccelDevice& operator=(const AccelDevice&) = delete;
 
+  // What its trees take now, in bytes, without the few that each geometry takes.
+  std::int64_t bytes() const { return bytes_; }
+
  private:
   friend class Accel;
   void* device_;
+  std::atomic<std::int64_t> bytes_{0};  // as Embree's threads tell
 };
 
 // Surfaces with holes: is asked about every hit on the way, from many threads at once.
@@ -58,6 +63,7 @@ class Accel {
   void add(const Accel& instance, const Motion& motion);
   // `times`: when motions start and end, as the rays' time has it.
   void build(const MotionTimes& times = {});
+  double buildSeconds() const { return buildSeconds_; }
 
   Bounds3 bounds() const;  // empty if there is nothing
 
@@ -87,6 +93,7 @@ class Accel {
   // some packets that look all ways through instances.
   bool coherent_ = true;
   bool moves_ = false;  // whether any instance does
+  double buildSeconds_ = 0;
   MotionTimes times_;
   std::vector<std::unique_ptr<UserGeometry>> users_;
 };

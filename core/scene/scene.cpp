@@ -63,6 +63,12 @@ void bump(SurfaceInteraction& s, const Textured<float>& d) {
 
 }  // namespace
 
+double Scene::treeSeconds() const {
+  double seconds = root_.accel.buildSeconds();
+  for (const auto& object : objects_) seconds += object->accel.buildSeconds();
+  return seconds;
+}
+
 SurfaceInteraction Scene::surface(const RayDifferential& ray, const Hit& hit) const {
   const Instance* place = instance(hit);
   const Geometry& g = geometry(hit);

@@ -13,6 +13,7 @@
 #include "core/api/texture.h"
 #include "core/scene/accel.h"
 #include "core/scene/film.h"
+#include "core/scene/memory.h"
 
 namespace pbrt {
 
@@ -77,9 +78,12 @@ class Scene final : public World, private HitFilter {
   const std::map<std::string, ImageAttribute>& attributes() const { return attributes_; }
   std::size_t shapes() const { return shapes_; }
   std::size_t instances() const { return instances_.size(); }
+  // Of all ray trees together.
+  double treeSeconds() const;
 
  private:
   friend class SceneBuilder;
+  friend std::vector<MemoryPart> takeApart(std::unique_ptr<Scene> scene);
 
   bool keeps(const Ray& ray, const Hit& hit, bool shadow) const override;
   const Instance* instance(const Hit& hit) const {

@@ -18,7 +18,7 @@ void SceneReader::begin() {
     builder_->handle(std::move(d));
     d = Directive();  // frees the parameters that nobody kept
   }
-  waiting_ = {};
+  waiting_ = std::vector<Directive>();  // {} would keep the room
 }
 
 void SceneReader::read(Directive&& d) {
@@ -35,7 +35,9 @@ std::unique_ptr<Scene> SceneReader::finish() {
     dialect_ = detector_.result();
     begin();
   }
-  return builder_->finish();
+  auto scene = builder_->finish();
+  builder_.reset();  // and with it all that was named and is not used
+  return scene;
 }
 
 std::unique_ptr<Scene> buildScene(std::vector<Directive> directives, PluginLoader& loader,

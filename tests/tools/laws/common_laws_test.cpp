@@ -22,13 +22,8 @@ class Triangle final : public MeshShape {
 
 template <auto read>
 Judge judged(std::string_view name, const ParamList& params = {}, const char* summary = "own") {
-  const PluginInfo plugin{kAbiVersion,
-                          compiledFingerprint(),
-                          PluginKind::shape,
-                          "own",
-                          summary,
-                          createPlugin<Shape, Triangle<read>>,
-                          nullptr};
+  const PluginInfo plugin{
+      {}, PluginKind::shape, "own", summary, createPlugin<Shape, Triangle<read>>, nullptr};
   Judge judge;
   for (const laws::Law& law : laws::commonLaws())
     if (law.name == name) law.check({&plugin, params, {}}, judge);
@@ -117,8 +112,7 @@ TEST(CommonLaws, ThrowIfItCannotBeMade) {
   EXPECT_THROW(judged<kGood>(laws::kMade, {test::number("n", 1.5F)}), Error);
   EXPECT_THROW(judged<kGood>(laws::kMade, {test::number("unknown", 1)}), Error);
 
-  const PluginInfo nothing{kAbiVersion,
-                           compiledFingerprint(),
+  const PluginInfo nothing{{},
                            PluginKind::shape,
                            "nothing",
                            "",

@@ -122,13 +122,8 @@ TEST(ShapeLaws, HaveNamesOfTheirOwn) {
 // A class of this test as a plug-in.
 template <class Class>
 const PluginInfo* plugin(const char* summary = "of this test") {
-  static const PluginInfo info{kAbiVersion,
-                               compiledFingerprint(),
-                               PluginKind::shape,
-                               "own",
-                               summary,
-                               createPlugin<Shape, Class>,
-                               nullptr};
+  static const PluginInfo info{{},      PluginKind::shape,          "own",
+                               summary, createPlugin<Shape, Class>, nullptr};
   return &info;
 }
 
