@@ -16,21 +16,45 @@ class RayQuestions {
   }
 
   static constexpr int count = 1000;
+  static constexpr std::array names = std::to_array<std::string_view>({"t",
+                                                                       "u",
+                                                                       "v",
+                                                                       "primitive",
+                                                                       "p.x",
+                                                                       "p.y",
+                                                                       "p.z",
+                                                                       "error",
+                                                                       "n.x",
+                                                                       "n.y",
+                                                                       "n.z",
+                                                                       "uv.x",
+                                                                       "uv.y",
+                                                                       "dpdu.x",
+                                                                       "dndv.y",
+                                                                       "occluded()",
+                                                                       "sample().p.x",
+                                                                       "sample().p.y",
+                                                                       "sample().p.z",
+                                                                       "sample().n.x",
+                                                                       "sample().pdf",
+                                                                       "pdf()",
+                                                                       "mayHit()"});
 
-  std::array<double, 24> ask(int i) const {
-    std::array<double, 24> answer{};
-    auto* next = answer.data();
-    const auto add = [&](auto... x) { ((*next++ = static_cast<double>(x)), ...); };
+  std::array<double, names.size()> ask(int i) const {
+    std::array<double, names.size()> answer{};
+    const auto put = [&](std::size_t at, auto... x) {
+      ((answer[at++] = static_cast<double>(x)), ...);
+    };
     const ObjectRay& r = rays_[i];
     if (const auto found = probe_.nearest(r)) {
       const SurfacePoint s = probe_.shape().surface(r, found->hit);
-      add(found->hit.t, found->hit.u, found->hit.v, found->primitive);
-      add(s.p.x, s.p.y, s.p.z, s.error, s.n.x, s.n.y, s.n.z, s.uv.x, s.uv.y, s.dpdu.x, s.dndv.y);
-      add(probe_.shape().occluded(r, found->primitive));
+      put(0, found->hit.t, found->hit.u, found->hit.v, found->primitive, s.p.x, s.p.y, s.p.z,
+          s.error, s.n.x, s.n.y, s.n.z, s.uv.x, s.uv.y, s.dpdu.x, s.dndv.y,
+          probe_.shape().occluded(r, found->primitive));
     }
     if (area_) {
       const AreaSample s = area_->sample(r.o, {(i + 0.5F) / count, (i * 7 % count + 0.5F) / count});
-      add(s.p.x, s.p.y, s.p.z, s.error, s.n.x, s.pdf, area_->pdf(r.o, s.p, s.n),
+      put(16, s.p.x, s.p.y, s.p.z, s.n.x, s.pdf, area_->pdf(r.o, s.p, s.n),
           area_->mayHit(r.o, r.d));
     }
     return answer;
@@ -71,6 +95,9 @@ constexpr Law kLaws[] = {
      ofTraced<Traced::threadSafe>},
     {"allocates-nothing", "What rays touch asks for no memory.",
      ofTraced<Traced::allocatesNothing>},
+};
+
+constexpr Law kColourLaws[] = {
     {"colours-are-sound", "Its own colours are finite and not negative.", traced<coloursAreSound>},
 };
 
@@ -78,6 +105,9 @@ constexpr Law kLaws[] = {
 
 std::span<const Law> shapeObjectLaws() {
   return kLaws;
+}
+std::span<const Law> shapeColourLaws() {
+  return kColourLaws;
 }
 
 }  // namespace pbrt::laws

@@ -3,6 +3,7 @@
 // when and how often, and no memory asked for.
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <latch>
 #include <thread>
@@ -12,8 +13,9 @@
 
 namespace pbrt::laws {
 
-// `Questions` is made from a Subject, has `count`, ask(i) -> std::array<float, N> and about(i),
-// which tells a person the question. Asking allocates nothing, but for what the plug-in allocates.
+// `Questions` is made from a Subject, may have `names` of the numbers in an answer, has `count`,
+// ask(i) -> std::array<float, N> and about(i), which tells a person the question. Asking allocates
+// nothing, but for what the plug-in allocates.
 template <class Questions>
 struct Steady {
   using Answer = decltype(std::declval<const Questions&>().ask(0));
@@ -26,10 +28,23 @@ struct Steady {
     for (int i = 0; i < questions.count; ++i) all.push_back(questions.ask(i));
     return all;
   }
+  // The first few numbers in which two answers differ, if the questions have names for them.
+  static std::string difference(const Answer& a, const Answer& b) {
+    if constexpr (requires { Questions::names; }) {
+      std::string text;
+      int told = 0;
+      for (std::size_t i = 0; i < a.size() && told < 3; ++i)
+        if (std::memcmp(&a[i], &b[i], sizeof a[i]) != 0)
+          text += fmt::format("{}{} = {}, then {}", told++ == 0 ? "" : "; ", Questions::names[i],
+                              a[i], b[i]);
+      return text;
+    } else {
+      return fmt::format("{}, then {}", fmt::join(a, " "), fmt::join(b, " "));
+    }
+  }
   static void compare(const Questions& questions, int i, const Answer& a, const Answer& b,
                       std::string_view when, Judge& judge) {
-    judge.expect(same(a, b), "{}: {}, then {} {}", questions.about(i), fmt::join(a, " "),
-                 fmt::join(b, " "), when);
+    judge.expect(same(a, b), "{}: {} {}", questions.about(i), difference(a, b), when);
   }
 
   static void repeatable(const Subject& subject, Judge& judge) {
@@ -49,7 +64,9 @@ struct Steady {
   }
 
   static void threadSafe(const Subject& subject, Judge& judge) {
-    constexpr int threads = 4, rounds = 10;
+    // Long enough for the threads to be interrupted anywhere, where cores are few.
+    constexpr std::chrono::milliseconds time(100);
+    constexpr int threads = 4;
     const Questions questions(subject);
     const auto alone = answers(questions);
     std::array<std::vector<std::pair<int, Answer>>, threads> differ;
@@ -58,11 +75,14 @@ struct Steady {
     for (int t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
         start.arrive_and_wait();
-        for (int k = 0; k < rounds * questions.count; ++k) {
-          const int i = (k + t * questions.count / threads) % questions.count;
-          const Answer answer = questions.ask(i);
-          if (!same(alone[i], answer)) differ[t].push_back({i, answer});
-        }
+        const auto end = std::chrono::steady_clock::now() + time;
+        do {
+          for (int k = 0; k < questions.count && differ[t].size() < Judge::kMostKept; ++k) {
+            const int i = (k + t * questions.count / threads) % questions.count;
+            const Answer answer = questions.ask(i);
+            if (!same(alone[i], answer)) differ[t].push_back({i, answer});
+          }
+        } while (std::chrono::steady_clock::now() < end && differ[t].empty());
       });
     running.clear();  // waits for them
     for (const auto& of : differ) {

@@ -132,7 +132,7 @@ void print(const CheckOptions& o, const Law& law, const Verdict& v, std::size_t 
   if (o.quiet && !v.failures) return;
   const std::string why = v.skipped.empty() ? "" : fmt::format(" ({})", v.skipped);
   fmt::print("{:<7}  {:<{}}  {}{}\n", word, law.name, width, law.promise, why);
-  if (v.failures > 0 && v.trials > 1)
+  if (v.failures > 1)
     fmt::print("{:9}{} of {} trials failed{}:\n", "", v.failures, v.trials,
                v.failures > v.findings.size() ? ", among them" : "");
   for (const std::string& finding : v.findings) fmt::print("{:9}- {}\n", "", finding);

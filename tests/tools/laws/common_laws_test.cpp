@@ -20,14 +20,24 @@ class Triangle final : public MeshShape {
   }
 };
 
-template <auto read>
-Judge judged(std::string_view name, const ParamList& params = {}, const char* summary = "own") {
-  const PluginInfo plugin{
-      {}, PluginKind::shape, "own", summary, createPlugin<Shape, Triangle<read>>, nullptr};
+using Create = void* (*)(Params&, const void*);
+
+Judge judged(Create create, std::string_view name, const ParamList& params,
+             const char* summary = "of this test") {
+  PluginInfo plugin{};
+  plugin.kind = PluginKind::shape;
+  plugin.name = "own";
+  plugin.summary = summary;
+  plugin.create = create;
   Judge judge;
   for (const laws::Law& law : laws::commonLaws())
     if (law.name == name) law.check({&plugin, params, {}}, judge);
   return judge;
+}
+template <auto read>
+Judge judged(std::string_view name, const ParamList& params = {},
+             const char* summary = "of this test") {
+  return judged(createPlugin<Shape, Triangle<read>>, name, params, summary);
 }
 
 template <auto read>
@@ -112,14 +122,8 @@ TEST(CommonLaws, ThrowIfItCannotBeMade) {
   EXPECT_THROW(judged<kGood>(laws::kMade, {test::number("n", 1.5F)}), Error);
   EXPECT_THROW(judged<kGood>(laws::kMade, {test::number("unknown", 1)}), Error);
 
-  const PluginInfo nothing{{},
-                           PluginKind::shape,
-                           "nothing",
-                           "",
-                           [](Params&, const void*) -> void* { return nullptr; },
-                           nullptr};
-  Judge judge;
-  EXPECT_THROW(laws::commonLaws()[0].check({&nothing, {}, {}}, judge), Error);
+  const Create nothing = [](Params&, const void*) -> void* { return nullptr; };
+  EXPECT_THROW(judged(nothing, laws::kMade, {}), Error);
 }
 
 }  // namespace

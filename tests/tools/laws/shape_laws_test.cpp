@@ -121,9 +121,14 @@ TEST(ShapeLaws, HaveNamesOfTheirOwn) {
 
 // A class of this test as a plug-in.
 template <class Class>
-const PluginInfo* plugin(const char* summary = "of this test") {
-  static const PluginInfo info{{},      PluginKind::shape,          "own",
-                               summary, createPlugin<Shape, Class>, nullptr};
+const PluginInfo* plugin() {
+  static const PluginInfo info = [] {
+    PluginInfo own{};
+    own.kind = PluginKind::shape;
+    own.name = "own";
+    own.create = createPlugin<Shape, Class>;
+    return own;
+  }();
   return &info;
 }
 
