@@ -1,23 +1,19 @@
-// Every camera that can be found obeys the laws of cameras.
+// Every camera that can be found obeys the laws of cameras: tools/laws/camera_laws.cpp.
 
 #include "tests/cameras/lenses.h"
-#include "tests/law_sets.h"
+#include "tests/every_law.h"
 
 namespace pbrt::test {
 namespace {
 
-class CameraLaws : public testing::TestWithParam<LawCase> {};
-
-TEST_P(CameraLaws, Hold) {
-  const LawCase& c = GetParam();
+std::vector<laws::Subject> forms(const PluginInfo& camera) {
   ParamList required;
-  if (c.subject.plugin->name == std::string("realistic"))
-    required = {text("lensfile", kDoubleGauss)};
-  obeyWithEach(c, {required});
+  if (std::string_view(camera.name) == "realistic") required = {text("lensfile", kDoubleGauss)};
+  return {{&camera, required, {}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, CameraLaws, testing::ValuesIn(lawCases(PluginKind::camera)),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Cameras, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::camera, forms)),
+                         EveryLaw::name);
 
 // Thin lenses lose no light.
 TEST(FlatCameras, HaveFullWeight) {

@@ -1,20 +1,16 @@
-// Every filter that can be found obeys the laws of filters.
+// Every filter that can be found obeys the laws of filters: tools/laws/filter_laws.cpp.
 
-#include "tests/law_sets.h"
+#include "tests/every_law.h"
 
 namespace pbrt::test {
 namespace {
 
-class FilterLaws : public testing::TestWithParam<LawCase> {};
-
-TEST_P(FilterLaws, Hold) {
-  LawCase c = GetParam();
-  c.subject.traits.hasSteps = c.subject.plugin->name == std::string("box");
-  obeyWithEach(c, {{}});
+std::vector<laws::Subject> forms(const PluginInfo& filter) {
+  return {{&filter, {}, {.hasSteps = std::string_view(filter.name) == "box"}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, FilterLaws, testing::ValuesIn(lawCases(PluginKind::filter)),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Filters, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::filter, forms)),
+                         EveryLaw::name);
 
 }  // namespace
 }  // namespace pbrt::test

@@ -1,29 +1,30 @@
-// Every integrator that can be found obeys the laws of integrators.
+// Every integrator that can be found obeys the laws of integrators: tools/laws/integrator_laws.cpp.
 
-#include "tests/law_sets.h"
-#include "tools/laws/parameters.h"
+#include "tests/every_law.h"
 
 namespace pbrt::test {
 namespace {
 
-class IntegratorLaws : public testing::TestWithParam<LawCase> {};
-
-TEST_P(IntegratorLaws, Hold) {
-  const LawCase& c = GetParam();
-  std::vector<ParamList> sets = {{},
-                                 {text("lightsamplestrategy", "power")},
-                                 {text("strategy", "weighted")},
-                                 {integers("maxdepth", {1})},
-                                 {text("red", "nx"), text("blue", "dpdu")},
-                                 {flag("cossample", false)},
-                                 {number("stepsize", 0.3F)}};
-  const laws::Declared declared(c.subject);
-  std::erase_if(sets, [&](const ParamList& set) { return !declared.has(set); });
-  obeyWithEach(c, sets);
+// Those of these that it takes; one for volumes adds to another.
+std::vector<laws::Subject> forms(const PluginInfo& integrator) {
+  const auto surface = make<Integrator>("directlighting");
+  std::vector<laws::Subject> forms;
+  for (const ParamList& list : std::vector<ParamList>{{},
+                                                      {text("lightsamplestrategy", "power")},
+                                                      {text("strategy", "weighted")},
+                                                      {integers("maxdepth", {1})},
+                                                      {text("red", "nx"), text("blue", "dpdu")},
+                                                      {flag("cossample", false)},
+                                                      {number("stepsize", 0.3F)}})
+    if (const laws::Subject form{&integrator, list, {}};
+        laws::accepts<Integrator>(form, {}, {surface->sampling()}))
+      forms.push_back(form);
+  return forms;
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, IntegratorLaws, testing::ValuesIn(lawCases(PluginKind::integrator)),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Integrators, EveryLaw,
+                         testing::ValuesIn(everyLaw(PluginKind::integrator, forms)),
+                         EveryLaw::name);
 
 }  // namespace
 }  // namespace pbrt::test

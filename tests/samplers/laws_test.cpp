@@ -1,20 +1,16 @@
-// Every sampler that can be found obeys the laws of samplers.
+// Every sampler that can be found obeys the laws of samplers: tools/laws/sampler_laws.cpp.
 
-#include "tests/law_sets.h"
+#include "tests/every_law.h"
 
 namespace pbrt::test {
 namespace {
 
-class SamplerLaws : public testing::TestWithParam<LawCase> {};
-
-TEST_P(SamplerLaws, Hold) {
-  LawCase c = GetParam();
-  c.subject.traits.independentNumbers = c.subject.plugin->name == std::string("random");
-  obeyWithEach(c, {{}});
+std::vector<laws::Subject> forms(const PluginInfo& sampler) {
+  return {{&sampler, {}, {.independentNumbers = std::string_view(sampler.name) == "random"}}};
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, SamplerLaws, testing::ValuesIn(lawCases(PluginKind::sampler)),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Samplers, EveryLaw,
+                         testing::ValuesIn(everyLaw(PluginKind::sampler, forms)), EveryLaw::name);
 
 }  // namespace
 }  // namespace pbrt::test

@@ -1,6 +1,6 @@
-// Every volume that can be found obeys the laws of volumes.
+// Every volume that can be found obeys the laws of volumes: tools/laws/volume_laws.cpp.
 
-#include "tests/law_sets.h"
+#include "tests/every_law.h"
 
 namespace pbrt::test {
 namespace {
@@ -32,34 +32,25 @@ std::vector<ParamList> mediumParams() {
 }
 
 // Those that a volume takes.
-std::vector<ParamList> taken(const PluginInfo& volume) {
-  std::vector<ParamList> taken;
-  for (const ParamList& list : mediumParams()) try {
-      make<Medium>(volume.name, list);
-      taken.push_back(list);
-    } catch (const Error&) {
-      continue;  // it is for others
-    }
-  return taken;
+std::vector<laws::Subject> forms(const PluginInfo& volume) {
+  std::vector<laws::Subject> forms;
+  for (const ParamList& list : mediumParams())
+    if (const laws::Subject form{&volume, list, {}}; laws::accepts<Medium>(form, {}))
+      forms.push_back(form);
+  return forms;
 }
 
-class VolumeLaws : public testing::TestWithParam<LawCase> {};
-
-TEST_P(VolumeLaws, Hold) {
-  const LawCase& c = GetParam();
-  obeyWithEach(c, taken(*c.subject.plugin));
-}
-
-INSTANTIATE_TEST_SUITE_P(Every, VolumeLaws, testing::ValuesIn(lawCases(PluginKind::volume)),
-                         nameOf);
+INSTANTIATE_TEST_SUITE_P(Volumes, EveryLaw, testing::ValuesIn(everyLaw(PluginKind::volume, forms)),
+                         EveryLaw::name);
 
 TEST(Volumes, AreAllTriedAndEndWithTheirBox) {
   std::size_t tried = 0;
-  for (const std::string& name : loader().available(PluginKind::volume))
-    for (const ParamList& list : taken(loader().open(PluginKind::volume, name))) {
-      EXPECT_TRUE(make<Medium>(name, list)->bounded()) << name;
-      ++tried;
-    }
+  for (const std::string& name : loader().available(PluginKind::volume)) {
+    const auto all = forms(loader().open(PluginKind::volume, name));
+    EXPECT_FALSE(all.empty()) << name;
+    for (const laws::Subject& form : all) EXPECT_TRUE(form.make<Medium>()->bounded()) << name;
+    tried += all.size();
+  }
   EXPECT_GE(tried, 9U);
 }
 

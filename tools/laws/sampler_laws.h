@@ -5,9 +5,12 @@
 
 namespace pbrt::laws {
 
+// Throws Error, also if it cannot be cloned: then no thread could have it.
 inline std::unique_ptr<Sampler> makeSampler(const Subject& subject, int samplesPerPixel,
                                             std::uint64_t seed = 0, Point2i resolution = {64, 64}) {
-  return subject.make<Sampler>({seed, samplesPerPixel, resolution});
+  auto sampler = subject.make<Sampler>({seed, samplesPerPixel, resolution});
+  if (!sampler->clone()) throw Error("its clone() gives no sampler", Failure::plugin);
+  return sampler;
 }
 
 inline bool inUnit(float u) {

@@ -1,6 +1,5 @@
 #include "stage.h"
 
-#include "core/parse/parse.h"
 #include "core/scene/builder.h"
 
 namespace pbrt::laws {
@@ -14,7 +13,7 @@ struct StageText {
 constexpr const char* kOptions =
     "LookAt 0 1.2 -4 0 0.7 0 0 1 0 Camera \"perspective\" \"float fov\" 50\n"
     "Film \"image\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
-    "PixelFilter \"box\" Sampler \"random\" {}\nWorldBegin\n{}\nWorldEnd\n";
+    "PixelFilter \"box\" Sampler \"random\" Integrator \"{}\"\nWorldBegin\n{}\nWorldEnd\n";
 
 std::vector<StageText> stageTexts() {
   const std::string floor =
@@ -57,13 +56,6 @@ PluginLoader& plugins() {
   return loader;
 }
 
-std::unique_ptr<Scene> build(const std::string& text) {
-  std::vector<Directive> directives;
-  Parser parser([&](Directive&& d) { directives.push_back(std::move(d)); });
-  parser.text("scene of a law", text);
-  return buildScene(std::move(directives), plugins(), {});
-}
-
 // Samples count in their own pixel alone.
 class OnePixel final : public Filter {
  public:
@@ -73,11 +65,12 @@ class OnePixel final : public Filter {
 
 }  // namespace
 
-Stage::Stage(const Subject& subject, std::string name, std::unique_ptr<Scene> scene,
-             std::unique_ptr<Integrator> surface)
+Stage::Stage(const Subject& subject, std::string name, std::unique_ptr<Parser> text,
+             std::unique_ptr<Scene> scene, std::unique_ptr<Integrator> surface)
     : World(*scene),
       subject_(subject),
       name_(std::move(name)),
+      text_(std::move(text)),
       scene_(std::move(scene)),
       surface_(std::move(surface)),
       integrator_(makeIntegrator()) {
@@ -111,11 +104,14 @@ std::vector<std::unique_ptr<Stage>> stages(const Subject& subject) {
     const bool media = subject.make<Integrator>({surface->sampling()})->tracesMedia();
     if (text.named && !media) continue;
     const Point2i size = Stage::kResolution;
-    auto scene = build(fmt::format(
-        kOptions, size.x, size.y,
-        media ? "Integrator \"volpath\"" : "Integrator \"directlighting\"", text.world));
+    std::vector<Directive> directives;
+    auto parser =
+        std::make_unique<Parser>([&](Directive&& d) { directives.push_back(std::move(d)); });
+    parser->text("scene of a law", fmt::format(kOptions, size.x, size.y,
+                                               media ? "volpath" : "directlighting", text.world));
+    auto scene = buildScene(std::move(directives), plugins(), {});
     all.push_back(std::unique_ptr<Stage>(
-        new Stage(subject, text.name, std::move(scene), std::move(surface))));
+        new Stage(subject, text.name, std::move(parser), std::move(scene), std::move(surface))));
   }
   return all;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // Small scenes in which integrators are tried.
 
+#include "core/parse/parse.h"
 #include "core/scene/render.h"
 #include "core/scene/scene.h"
 #include "law.h"
@@ -62,11 +63,12 @@ class Stage final : public World {
  private:
   friend std::vector<std::unique_ptr<Stage>> stages(const Subject& subject);
 
-  Stage(const Subject& subject, std::string name, std::unique_ptr<Scene> scene,
-        std::unique_ptr<Integrator> surface);
+  Stage(const Subject& subject, std::string name, std::unique_ptr<Parser> text,
+        std::unique_ptr<Scene> scene, std::unique_ptr<Integrator> surface);
 
   Subject subject_;
   std::string name_;
+  std::unique_ptr<Parser> text_;  // which the scene may quote
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Integrator> surface_;  // directlighting
   std::unique_ptr<Integrator> integrator_;
