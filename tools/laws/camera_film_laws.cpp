@@ -16,7 +16,7 @@ ParamList lens(float radius, float focus) {
 }
 // Whether the law goes on.
 bool hasLens(const Subject& subject, Judge& judge) {
-  const bool declared = declaredByCamera(subject).has(lens(1, 1));
+  const bool declared = Declared(subject).has(lens(1, 1));
   if (!isFlat(subject))
     judge.skip(kNoMatrix);
   else if (!declared)
@@ -141,7 +141,7 @@ void extremeLensesFocus(const Subject& subject, Judge& judge) {
 void clipsByDepth(const Subject& subject, Judge& judge) {
   const ParamList clip = {number("hither", 0.5F), number("yon", 20)};
   if (!isFlat(subject)) return judge.skip(kNoMatrix);
-  if (!declaredByCamera(subject).has(clip)) return judge.skip("it declares no hither and yon");
+  if (!Declared(subject).has(clip)) return judge.skip("it declares no hither and yon");
   const Place place = places()[1];
   const auto camera = makeCamera(subject, place, clip);
   Rng rng(5);
@@ -168,7 +168,7 @@ void screenWindowIsShown(const Subject& subject, Judge& judge) {
     return ParamList{numbers("screenwindow", std::move(v))};
   };
   if (!isFlat(subject)) return judge.skip(kNoMatrix);
-  if (!declaredByCamera(subject).has(window({}))) return judge.skip("it declares no screenwindow");
+  if (!Declared(subject).has(window({}))) return judge.skip("it declares no screenwindow");
   // The film's edges, at depth 1, left, right, lower and upper.
   const auto shown = [&](const ParamList& list, Point2i resolution) {
     const auto camera = makeCamera(subject, {resolution, {}}, list);
@@ -196,7 +196,7 @@ void screenWindowIsShown(const Subject& subject, Judge& judge) {
   expectShown({}, {200, 100}, {-2, 2, -1, 1}, "without screenwindow");
   expectShown({}, {100, 400}, {-1, 1, -4, 4}, "without screenwindow");
   const ParamList aspect = {number("frameaspectratio", 0.5F)};
-  if (declaredByCamera(subject).has(aspect))
+  if (Declared(subject).has(aspect))
     expectShown(aspect, {300, 300}, {-1, 1, -2, 2}, "frameaspectratio 0.5");
 }
 

@@ -68,7 +68,7 @@ void raysAreWellFormed(const Subject& subject, Judge& judge) {
 void differentialsAreTheNeighbours(const Subject& subject, Judge& judge) {
   std::vector<ParamList> lenses = {{}};
   const ParamList wide = {number("lensradius", 0.5F), number("focaldistance", 9)};
-  if (declaredByCamera(subject).has(wide)) lenses.push_back(wide);
+  if (Declared(subject).has(wide)) lenses.push_back(wide);
   for (const ParamList& lens : lenses)
     for (const Place& place : places()) {
       const auto camera = makeCamera(subject, place, lens);
@@ -116,7 +116,7 @@ void shutterGivesTheTime(const Subject& subject, Judge& judge) {
   const auto shutter = [](float open, float close) {
     return ParamList{number("shutteropen", open), number("shutterclose", close)};
   };
-  if (!declaredByCamera(subject).has(shutter(0, 1)))
+  if (!Declared(subject).has(shutter(0, 1)))
     return judge.skip("it declares no shutteropen and shutterclose");
   const auto camera = makeCamera(subject, places()[0], shutter(2, 6));
   for (const auto& [u, expected] : {std::pair(0.F, 2.F), std::pair(0.25F, 3.F)}) {
@@ -134,7 +134,7 @@ void shutterGivesTheTime(const Subject& subject, Judge& judge) {
 }
 
 void nonsenseIsAnError(const Subject& subject, Judge& judge) {
-  const Declared<Camera> declared = declaredByCamera(subject);
+  const Declared declared(subject);
   const auto window = [](std::vector<float> v) { return numbers("screenwindow", std::move(v)); };
   const std::vector<ParamList> all = {
       {window({1, -1, -1, 1})},

@@ -29,9 +29,6 @@ inline std::unique_ptr<Camera> makeCamera(const Subject& subject, const Place& p
 inline bool acceptsCamera(const Subject& subject, const ParamList& more) {
   return accepts<Camera>(subject, more, {{}, {640, 480}});
 }
-inline Declared<Camera> declaredByCamera(const Subject& subject) {
-  return Declared<Camera>(subject, {{}, {640, 480}});
-}
 
 inline CameraSample randomSample(Rng& rng, Point2i resolution) {
   CameraSample s;

@@ -28,7 +28,7 @@ ParamList widths(float x, float y) {
   return {number("xwidth", x), number("ywidth", y)};
 }
 bool hasWidths(const Subject& subject) {
-  return Declared<Filter>(subject).has(widths(1, 1));
+  return Declared(subject).has(widths(1, 1));
 }
 
 // The filter of each of these radii; as it is, if it cannot be told.
@@ -165,7 +165,7 @@ void evenLightStaysEven(const Subject& subject, Judge& judge) {
 // Whatever else a filter is told: an error, or finite weights.
 void extremesAreFiniteOrErrors(const Subject& subject, Judge& judge) {
   bool any = false;
-  for (const Declaration& d : Declared<Filter>(subject)) {
+  for (const Declaration& d : Declared(subject)) {
     if (d.type != "float" || d.name == "xwidth" || d.name == "ywidth") continue;
     any = true;
     for (const float v : {1e-30F, 1e-6F, 0.3F, 1.F, 50.F, 1e6F, 1e30F, -1e30F, -2.F, 0.F}) {

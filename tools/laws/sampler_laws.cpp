@@ -133,7 +133,7 @@ void seedsGiveOtherNumbers(const Subject& subject, Judge& judge) {
   const auto plain = first(subject, 0);
   judge.expect(plain == first(subject, 0), "the same seed gives other numbers each time");
   judge.expect(plain != first(subject, 1), "seeds 0 and 1 of the render give the same numbers");
-  if (!Declared<Sampler>(subject).has("seed")) return;
+  if (!Declared(subject).has("seed")) return;
   const Subject five = with(subject, {integer("seed", 5)});
   const auto ofScene = first(five, 0);
   judge.expect(ofScene == first(five, 0), "\"integer seed\" 5 gives other numbers each time");
@@ -146,7 +146,7 @@ void seedsGiveOtherNumbers(const Subject& subject, Judge& judge) {
 
 void countsBelowOneAreErrors(const Subject& subject, Judge& judge) {
   bool any = false;
-  for (const Declaration& d : Declared<Sampler>(subject)) {
+  for (const Declaration& d : Declared(subject)) {
     if (!d.name.ends_with("samples")) continue;
     any = true;
     for (const int n : {0, -1, -2000000000})
