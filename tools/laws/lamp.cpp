@@ -27,7 +27,8 @@ Lamp::Lamp(const Subject& subject)
   centre_ = bounds_.box.centre();
   size_ = std::max(1.F, 0.5F * glm::length(bounds_.box.diagonal()));
   if (!isPoint()) return;
-  const double reach = std::acos(bounds_.normals.cosine) + std::acos(bounds_.cosEmission);
+  // A little beyond, too, where light would be wrong.
+  const double reach = 1.2 * (std::acos(bounds_.normals.cosine) + std::acos(bounds_.cosEmission));
   if (reach < std::numbers::pi && !bounds_.twoSided) capHeight_ = 2 * sqr(std::sin(reach / 2));
 }
 

@@ -22,7 +22,7 @@ class Lamp {
   Point3 centre() const { return centre_; }
 
   // A place to be lit, up to 5 times the light's size (at least 5 units) away from the centre. Half
-  // of those about a point lie where its bounds let it shine, and no others lie there by choice.
+  // of those about a point lie where its bounds let it shine, or hardly beyond.
   Point3 place(Rng& rng) const;
   // The direction of such a place from the centre, and the density of the choice per solid angle.
   struct Direction {
@@ -41,7 +41,7 @@ class Lamp {
   LightBounds bounds_;
   Point3 centre_{};
   float size_ = 1;
-  double capHeight_ = 0;  // of the cap of directions into which a point shines; 0: all or unknown
+  double capHeight_ = 0;  // 1 - cos of the cone about what a point shines into; 0: everywhere
 };
 
 // Where area lights do not look for their surface: as a scene makes other lights.

@@ -28,9 +28,9 @@ std::string complaint(const Light& light, const Point3& p, const LightSample& s)
   if (s.finite == light.bounds().box.empty())
     return fmt::format("finite is {}, but the box of bounds() is {}empty", s.finite,
                        s.finite ? "" : "not ");
-  // Of places on the light itself rounding leaves nothing to compare.
   const float distance = glm::length(s.p - p);
-  if (s.finite && distance > 1e-3F && !(glm::length((s.p - p) / distance - s.wi) < 1e-4F))
+  const float rounding = 4 * std::numeric_limits<float>::epsilon() * glm::length(s.p) / distance;
+  if (s.finite && distance > 0 && !(glm::length((s.p - p) / distance - s.wi) < 1e-5F + rounding))
     return fmt::format("p is {}, which is not where wi {} points", show(s.p), show(s.wi));
   return "";
 }
