@@ -17,9 +17,7 @@ namespace {
 std::vector<Ray> someRays() {
   Rng rng(11);
   std::vector<Ray> rays;
-  const auto onSphere = [&](float r) {
-    return r * uniformSphere({rng.uniform(), rng.uniform()});
-  };
+  const auto onSphere = [&](float r) { return r * uniformSphere({rng.uniform(), rng.uniform()}); };
   for (int i = 0; i < 1 << 14; ++i) {
     const Point3 from = onSphere(4), to = onSphere(1.22F * std::sqrt(rng.uniform()));
     rays.push_back({from, 0, glm::normalize(to - from)});
@@ -99,9 +97,9 @@ void formula(benchmark::State& state) {
 template <class F>
 void build(benchmark::State& state) {
   for (auto _ : state)
-    benchmark::DoNotOptimize(ImplicitShape(std::make_unique<Formula<F>>(F{}),
-                                           static_cast<std::size_t>(state.range(0)))
-                                 .primitives());
+    benchmark::DoNotOptimize(
+        ImplicitShape(std::make_unique<Formula<F>>(F{}), static_cast<std::size_t>(state.range(0)))
+            .primitives());
 }
 
 #define BOXES RangeMultiplier(4)->Range(1 << 9, 1 << 17)

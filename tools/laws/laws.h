@@ -6,6 +6,7 @@
 namespace pbrt::laws {
 
 std::span<const Law> shapeLaws();
+std::span<const Law> implicitLaws();  // for shapes that have implicit(); others skip them
 std::span<const Law> materialLaws();
 std::span<const Law> textureLaws();
 std::span<const Law> lightLaws();
