@@ -268,7 +268,7 @@ AreaSample PatchSampler::sample(const DPoint3& from, Point2 u) const {
   if (!isFinite(s.n)) return {};
   // The field's distance from the threshold over its slope, twice as the slope may change, and the
   // rounding of the point.
-  const Interval off = field_.bound(s.p, list);
+  const Range off = field_.bound(s.p, list);
   s.error = 2 * std::max(-off.lo, off.hi) / glm::length(field.gradient) +
             4 * kEpsilon * (std::abs(s.p.x) + std::abs(s.p.y) + std::abs(s.p.z));
   s.pdf = pdf(from, s.p, s.n);

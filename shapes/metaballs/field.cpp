@@ -7,13 +7,8 @@
 namespace pbrt::metaballs {
 namespace {
 
-struct BoxRange {
-  Interval value;
-  DVec3 steepest{};  // bound on |df/dx|, |df/dy|, |df/dz|
-};
-
 // The smallest interval that holds x and y, added to `sum`.
-void addHull(Interval& sum, double x, double y) {
+void addHull(Range& sum, double x, double y) {
   sum.lo += std::min(x, y);
   sum.hi += std::max(x, y);
 }
@@ -25,12 +20,11 @@ void addHull(Interval& sum, double x, double y) {
 // and moving q by d changes K by more than d b exp(-b): widening q by 64 epsilon covers that too.
 // A sum of n terms loses less than n epsilon of the sum of their absolute values.
 template <class K>
-BoxRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& atoms,
-                   AtomList list) {
+FieldRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& atoms,
+                     AtomList list) {
   constexpr double widened = 64 * kEpsilon;
-  BoxRange range{{-1, -1}};
+  FieldRange range{{-1, -1}, {}};
   double magnitude = 1;
-  Interval slope[3];
   DVec3 slopeMagnitude(0);
   for (const std::uint32_t j : list) {
     const Atom& atom = atoms[j];
@@ -46,29 +40,32 @@ BoxRange rangeOver(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>
     const double c = 2 * atom.weight * inverse2;
     const double k0 = c * K::slope(q0), k1 = c * K::slope(q1);
     for (int i = 0; i < 3; ++i) {
-      slope[i].lo += std::min({k0 * a[i], k0 * b[i], k1 * a[i], k1 * b[i]});
-      slope[i].hi += std::max({k0 * a[i], k0 * b[i], k1 * a[i], k1 * b[i]});
+      range.gradient[i].lo += std::min({k0 * a[i], k0 * b[i], k1 * a[i], k1 * b[i]});
+      range.gradient[i].hi += std::max({k0 * a[i], k0 * b[i], k1 * a[i], k1 * b[i]});
     }
     slopeMagnitude += std::abs(k0) * far;
   }
   const double error = (static_cast<double>(list.size()) + 2 * K::kRounding) * kEpsilon;
   range.value.lo -= error * magnitude;
   range.value.hi += error * magnitude;
-  for (int i = 0; i < 3; ++i)
-    range.steepest[i] = std::max(-slope[i].lo, slope[i].hi) + error * slopeMagnitude[i];
+  for (int i = 0; i < 3; ++i) {
+    range.gradient[i].lo -= error * slopeMagnitude[i];
+    range.gradient[i].hi += error * slopeMagnitude[i];
+  }
   return range;
 }
 
 template <class K>
-Interval boundAs(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& atoms,
-                 AtomList list) {
-  const BoxRange box = rangeOver<K>(lo, hi, atoms, list);
+Range boundAs(const DPoint3& lo, const DPoint3& hi, const std::vector<Atom>& atoms, AtomList list) {
+  const FieldRange box = rangeOver<K>(lo, hi, atoms, list);
   if (lo == hi || !box.value.contains(0)) return box.value;
   // The mean value form: |f(x) - f(c)| <= sum over the axes of max|df/dx_i| |x_i - c_i|. Where
   // atoms on opposite sides balance, this shrinks with the square of the box.
   const DPoint3 c = 0.5 * lo + 0.5 * hi;
-  const Interval centre = rangeOver<K>(c, c, atoms, list).value;
-  const double swing = glm::dot(box.steepest, glm::max(hi - c, c - lo)) * (1 + 8 * kEpsilon);
+  const Range centre = rangeOver<K>(c, c, atoms, list).value;
+  const DVec3 steepest(box.gradient[0].magnitude(), box.gradient[1].magnitude(),
+                       box.gradient[2].magnitude());
+  const double swing = glm::dot(steepest, glm::max(hi - c, c - lo)) * (1 + 8 * kEpsilon);
   return {std::max(box.value.lo, centre.lo - swing), std::min(box.value.hi, centre.hi + swing)};
 }
 
@@ -88,7 +85,11 @@ float Field::smallestRadius(AtomList list) const {
   return smallest;
 }
 
-Interval Field::bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const {
+FieldRange Field::range(const DPoint3& lo, const DPoint3& hi, AtomList list) const {
+  return withKernel(kernel_, [&]<class K>(K) { return rangeOver<K>(lo, hi, atoms_, list); });
+}
+
+Range Field::bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const {
   return withKernel(kernel_, [&]<class K>(K) { return boundAs<K>(lo, hi, atoms_, list); });
 }
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "core/base/bounds.h"
+#include "core/api/implicit.h"
 #include "shapes/metaballs/kernel.h"
 
 namespace pbrt::metaballs {
@@ -30,12 +30,6 @@ struct Atom {
 
 // A set of atoms by their numbers.
 using AtomList = std::span<const std::uint32_t>;
-
-struct Interval {
-  double lo = 0, hi = 0;
-
-  bool contains(double x) const { return lo <= x && x <= hi; }
-};
 
 // Relative error of any one double operation.
 inline constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -65,9 +59,11 @@ class Field {
   // All that follow take the atoms that reach the place in question; `list` may name others too.
 
   FieldSample sample(const DPoint3& p, AtomList list) const;
+  // Of f and its gradient over the box [lo, hi]: those of the atoms, each by itself, added up.
+  FieldRange range(const DPoint3& lo, const DPoint3& hi, AtomList list) const;
   // Holds f(x), as the real numbers define it, for every x of the box [lo, hi], rounding included.
-  Interval bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const;
-  Interval bound(const DPoint3& p, AtomList list) const { return bound(p, p, list); }
+  Range bound(const DPoint3& lo, const DPoint3& hi, AtomList list) const;
+  Range bound(const DPoint3& p, AtomList list) const { return bound(p, p, list); }
 
  private:
   Kernel kernel_;

@@ -10,6 +10,7 @@
 #include "shapes/metaballs/area.h"
 #include "shapes/metaballs/input.h"
 #include "shapes/metaballs/roots.h"
+#include "shapes/metaballs/whole_field.h"
 
 namespace pbrt::metaballs {
 
@@ -40,6 +41,11 @@ class Metaballs final : public Shape, private SurfaceColor {
     return sampler_->area() > 0 ? &*sampler_ : nullptr;
   }
   const SurfaceColor* color() const override { return colors_.empty() ? nullptr : this; }
+  const ImplicitField* implicit() const override {
+    if (cells_.cells().empty()) return nullptr;
+    std::call_once(wholeMade_, [&] { whole_.emplace(field_, cells_); });
+    return &*whole_;
+  }
 
  private:
   explicit Metaballs(Input input)
@@ -54,6 +60,8 @@ class Metaballs final : public Shape, private SurfaceColor {
   std::vector<Spectrum> colors_;  // of the atoms; may be empty
   mutable std::once_flag samplerMade_;
   mutable std::optional<PatchSampler> sampler_;  // made when an area light asks for it
+  mutable std::once_flag wholeMade_;
+  mutable std::optional<WholeField> whole_;  // made when somebody asks for the field
 };
 
 std::optional<ShapeHit> Metaballs::intersect(const ObjectRay& ray, std::uint32_t primitive) const {

@@ -62,14 +62,14 @@ TEST_P(Fields, BoundsHold) {
       for (int i = 0; i < 300; ++i) {
         const DPoint3 centre = 2 * unit * random.cube();
         DVec3 half = unit * std::pow(10.0, -random.in(0, 5)) * glm::abs(random.cube());
-        const Interval wide = field.bound(centre - half, centre + half, list);
+        const Range wide = field.bound(centre - half, centre + half, list);
         for (int k = 0; k < 8; ++k) {
           const DPoint3 p = centre + (k < 4 ? random.cube() : glm::sign(random.cube())) * half;
           // Along a ray of length zero through p the oracle's value at t = 0 is f(p).
           const auto f = static_cast<double>(Oracle(field, {p, {1, 0, 0}}).value(0));
           EXPECT_LE(wide.lo, f);
           EXPECT_GE(wide.hi, f);
-          const Interval point = field.bound(p, list);
+          const Range point = field.bound(p, list);
           EXPECT_LE(point.lo, f);
           EXPECT_GE(point.hi, f);
           EXPECT_LT(point.hi - point.lo, 1e-12);
@@ -93,7 +93,7 @@ TEST_P(Fields, BoundsCloseInWithTheSquareOfTheBox) {
     const DPoint3 p = ray.at(static_cast<double>(*t));
     const DVec3 g = glm::abs(field.sample(p, list).gradient);
     for (const double half : {1e-2, 1e-3, 1e-4}) {
-      const Interval b = field.bound(p - half, p + half, list);
+      const Range b = field.bound(p - half, p + half, list);
       ASSERT_TRUE(b.contains(0));
       EXPECT_LT(b.hi - b.lo, 2 * half * (g.x + g.y + g.z + 1000 * half));
       ++checked;

@@ -52,7 +52,7 @@ class Oracle {
     const Atom* atom;
   };
   struct Ranges {
-    Interval value, slope;
+    Range value, slope;
   };
   struct Value {
     Quad f = 0, error = 0;
