@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include "core/scene/translation.h"
-#include "laws/making.h"
 #include "tools/kind_by_name.h"
+#include "tools/laws/making.h"
 
 namespace pbrt {
 

@@ -93,7 +93,10 @@ inline const std::map<std::string, std::vector<Row>> kTable = {
         text("type", "ribbon"), value(ParamType::normal, "N", {1, 0, 0, -1, 1, 0})}}}},
     {"metaballs",
      {{"ball", {points("P", {1, 2, 3})}},
-      {"bridge", {points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}}}},
+      {"bridge", {points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}},
+      {"coloured",
+       {points("P", {0, 0, 0, 0.9F, 0, 0}),
+        value(ParamType::rgb, "color", {1, 0, 0, 0.2F, 0.3F, 1})}}}},
 };
 
 struct Case {

@@ -38,6 +38,7 @@ std::vector<LawCase> lawCases() {
       add(laws::shapeHitLaws());
       add(laws::shapeSurfaceLaws());
       add(laws::shapeObjectLaws());
+      if (shape->color()) add(laws::shapeColourLaws());
       if (shape->areaSampler()) add(laws::shapeAreaLaws());
     } catch (const Error& error) {
       ADD_FAILURE() << "give \"" << c.shape << "\" parameters in the table: " << error.what();

@@ -1,6 +1,8 @@
 // A ray that leaves a surface does not meet it again at once: a million rays for every shape
 // plug-in of the build, in floats, where a scene would put it.
 
+#include "core/base/rng.h"
+#include "core/base/warp.h"
 #include "core/scene/accel.h"
 #include "core/scene/mesh.h"
 #include "core/scene/placement.h"

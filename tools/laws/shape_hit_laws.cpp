@@ -12,18 +12,18 @@ void boundsHoldTheHits(ShapeProbe& probe, Judge& judge) {
     judge.expect(b.empty() || (isFinite(b.lo) && isFinite(b.hi)),
                  "primitive {} has the bounds {} to {}", i, show(b.lo), show(b.hi));
   }
-  probe.forHits(ShapeProbe::kHits, judge,
-                [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
-                  const Bounds3 b = probe.shape().bounds(f.primitive);
-                  const double slack = probe.errorOf(s) + 1e-9 * probe.size();
-                  double outside = 0;
-                  for (int i = 0; i < 3; ++i)
-                    outside = std::max({outside, b.lo[i] - s.p[i], s.p[i] - b.hi[i]});
-                  judge.expect(outside <= slack,
-                               "the point {} is {} outside of the bounds {} to {} of its primitive "
-                               "{}: {}",
-                               show(s.p), outside, show(b.lo), show(b.hi), f.primitive, show(r));
-                });
+  probe.forHits(
+      ShapeProbe::kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
+        const Bounds3 b = probe.shape().bounds(f.primitive);
+        const double slack = probe.errorOf(s) + 1e-9 * probe.size();
+        double outside = 0;
+        for (int i = 0; i < 3; ++i)
+          outside = std::max({outside, b.lo[i] - s.p[i], s.p[i] - b.hi[i]});
+        judge.expect(outside <= slack,
+                     "the point {} is {:.3g} outside of the bounds {} to {} of its primitive "
+                     "{}: {}",
+                     show(s.p), outside, show(b.lo), show(b.hi), f.primitive, show(r));
+      });
 }
 
 void hitsLieOnTheRay(ShapeProbe& probe, Judge& judge) {
@@ -37,11 +37,10 @@ void hitsLieOnTheRay(ShapeProbe& probe, Judge& judge) {
         const double rounding = 0x1p-23 * f.hit.t * glm::length(r.d);  // of t to float
         const double most = rounding + (probe.errorOf(s) + 1e-9 * probe.size()) / cosine;
         const double off = glm::length(s.p - r.at(f.hit.t));
-        judge.expect(
-            f.hit.t > 0 && off <= most,
-            "the hit at t = {} gives the point {}, {} off the ray's own point there, where "
-            "its error and rounding explain {}: {}",
-            f.hit.t, show(s.p), off, most, show(r));
+        judge.expect(f.hit.t > 0 && off <= most,
+                     "the hit at t = {} gives the point {}, {:.3g} off the ray's own point there, "
+                     "where its error and rounding explain {:.3g}: {}",
+                     f.hit.t, show(s.p), off, most, show(r));
       });
 }
 
@@ -141,9 +140,10 @@ void oddRaysAreMetAsWell(ShapeProbe& probe, Judge& judge) {
       const double rounding = 1e-9 * size + 1e-15 * t * length;
       const double cosine = std::abs(glm::dot(r.d / length, DVec3(s.n)));
       const double most = (probe.errorOf(s) + rounding) / std::max(1e-3, cosine);
-      judge.expect(across <= most,
-                   "the point {} is {} beside the ray, where its error and rounding explain {}: {}",
-                   show(s.p), across, most, show(r));
+      judge.expect(
+          across <= most,
+          "the point {} is {:.3g} beside the ray, where its error and rounding explain {:.3g}: {}",
+          show(s.p), across, most, show(r));
       r.o = s.p, r.tMin = 0;  // on from the very point
     }
   }

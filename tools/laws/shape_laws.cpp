@@ -5,8 +5,8 @@ namespace pbrt::laws {
 std::span<const Law> shapeLaws() {
   static const std::vector<Law> all = [] {
     std::vector<Law> laws;
-    for (const auto& part :
-         {shapeHitLaws(), shapeSurfaceLaws(), shapeObjectLaws(), shapeAreaLaws(), meshLaws()})
+    for (const auto& part : {shapeHitLaws(), shapeSurfaceLaws(), shapeObjectLaws(),
+                             shapeColourLaws(), shapeAreaLaws(), meshLaws()})
       laws.insert(laws.end(), part.begin(), part.end());
     return laws;
   }();

@@ -9,6 +9,8 @@ namespace pbrt::laws {
 std::span<const Law> shapeHitLaws();
 std::span<const Law> shapeSurfaceLaws();
 std::span<const Law> shapeObjectLaws();
+// Of those that bring colours along.
+std::span<const Law> shapeColourLaws();
 // Of those that can be area lights.
 std::span<const Law> shapeAreaLaws();
 // Of those that are handed over as triangles.

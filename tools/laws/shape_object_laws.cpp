@@ -71,6 +71,9 @@ constexpr Law kLaws[] = {
      ofTraced<Traced::threadSafe>},
     {"allocates-nothing", "What rays touch asks for no memory.",
      ofTraced<Traced::allocatesNothing>},
+};
+
+constexpr Law kColourLaws[] = {
     {"colours-are-sound", "Its own colours are finite and not negative.", traced<coloursAreSound>},
 };
 
@@ -78,6 +81,9 @@ constexpr Law kLaws[] = {
 
 std::span<const Law> shapeObjectLaws() {
   return kLaws;
+}
+std::span<const Law> shapeColourLaws() {
+  return kColourLaws;
 }
 
 }  // namespace pbrt::laws

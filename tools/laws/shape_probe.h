@@ -33,8 +33,8 @@ class Tally {
   }
   int tried() const { return tried_; }
   void judge(Judge& judge, int allowed) const {
-    judge.expect(wrong_ <= allowed, "{} of {}, where at most {} may: {}", wrong_, tried_, allowed,
-                 example_);
+    judge.expect(wrong_ <= allowed, "{} of {} trials fail, and at most {} may; the first: {}",
+                 wrong_, tried_, allowed, example_);
   }
 
  private:

@@ -14,12 +14,20 @@ bool metAlongNormal(const ShapeProbe& probe, const SurfacePoint& s, double h, do
   return probe.nearest({s.p + h * n, -n, h - slack, h + slack}).has_value();
 }
 
-// How far off the surface a point is along its normal, to a factor of ten, for a person to read.
+// How far off the surface a point is along its normal, for a person to read.
 std::string distance(const ShapeProbe& probe, const SurfacePoint& s) {
-  for (double h = 1e-8; h < 2; h *= 10)
-    if (metAlongNormal(probe, s, 2 * h * probe.size(), h * probe.size()))
-      return fmt::format("{:.0e} at most, but not within {}", h * probe.size(), s.error);
-  return "nowhere near it";
+  const auto within = [&](double h) { return metAlongNormal(probe, s, 2 * h, h); };
+  double h = 1e-12 * probe.size();
+  while (!within(h)) {
+    h *= 2;
+    if (h > 2 * probe.size()) return "nowhere near the surface";
+  }
+  double less = h / 2;
+  for (int i = 0; i < 8; ++i) {
+    const double middle = (less + h) / 2;
+    (within(middle) ? h : less) = middle;
+  }
+  return fmt::format("{:.2g} off the surface", h);
 }
 
 void pointsLieOnTheSurface(ShapeProbe& probe, Judge& judge) {
@@ -32,8 +40,8 @@ void pointsLieOnTheSurface(ShapeProbe& probe, Judge& judge) {
     const double h = std::max(64 * s.error, 1e-5 * probe.size());
     const double slack = s.error + 1e-6 * h + 1e-15 * glm::length(s.p);
     const bool met = metAlongNormal(probe, s, h, slack);
-    lost.expect(met, "along its normal {} the point {} is off the surface by {}, its error: {}",
-                show(s.n), show(s.p), met ? "" : distance(probe, s), show(r));
+    lost.expect(met, "the point {} is {} along its normal {}, its error says {}: {}", show(s.p),
+                met ? "" : distance(probe, s), show(s.n), s.error, show(r));
   });
   lost.judge(judge, kHits / 1000);
 }

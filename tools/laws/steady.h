@@ -3,6 +3,7 @@
 // when and how often, and no memory asked for.
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <latch>
 #include <thread>
@@ -49,7 +50,9 @@ struct Steady {
   }
 
   static void threadSafe(const Subject& subject, Judge& judge) {
-    constexpr int threads = 4, rounds = 10;
+    // Long enough for the threads to be interrupted anywhere, where cores are few.
+    constexpr std::chrono::milliseconds time(100);
+    constexpr int threads = 4;
     const Questions questions(subject);
     const auto alone = answers(questions);
     std::array<std::vector<std::pair<int, Answer>>, threads> differ;
@@ -58,11 +61,14 @@ struct Steady {
     for (int t = 0; t < threads; ++t)
       running.emplace_back([&, t] {
         start.arrive_and_wait();
-        for (int k = 0; k < rounds * questions.count; ++k) {
-          const int i = (k + t * questions.count / threads) % questions.count;
-          const Answer answer = questions.ask(i);
-          if (!same(alone[i], answer)) differ[t].push_back({i, answer});
-        }
+        const auto end = std::chrono::steady_clock::now() + time;
+        do {
+          for (int k = 0; k < questions.count && differ[t].size() < Judge::kMostKept; ++k) {
+            const int i = (k + t * questions.count / threads) % questions.count;
+            const Answer answer = questions.ask(i);
+            if (!same(alone[i], answer)) differ[t].push_back({i, answer});
+          }
+        } while (std::chrono::steady_clock::now() < end && differ[t].empty());
       });
     running.clear();  // waits for them
     for (const auto& of : differ) {

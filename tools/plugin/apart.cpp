@@ -23,13 +23,14 @@ namespace {
 // The last byte of what the copy sends: without it, it did not come to its end.
 constexpr char kReturned = 'r', kThrew = 't';
 
-// Above what the process has mapped already, as the shadow of a sanitizer is larger than any limit.
+// Above what the process has already, as the shadow of a sanitizer is larger than any limit. Of
+// memory that can be written to: address space alone is cheap, and threads reserve much of it.
 void limitMemory() {
-  rlim_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
-  const rlim_t most = pages * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{4} << 30U);
+  rlim_t size = 0, resident = 0, shared = 0, text = 0, library = 0, data = 0;  // in pages
+  std::ifstream("/proc/self/statm") >> size >> resident >> shared >> text >> library >> data;
+  const rlim_t most = data * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + (rlim_t{4} << 30U);
   const rlimit memory{most, most}, core{0, 0};
-  setrlimit(RLIMIT_AS, &memory);
+  setrlimit(RLIMIT_DATA, &memory);
   setrlimit(RLIMIT_CORE, &core);
 }
 

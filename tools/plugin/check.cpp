@@ -12,6 +12,7 @@
 namespace pbrt {
 namespace {
 
+namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using laws::Judge;
 using laws::Law;
@@ -49,7 +50,7 @@ Answer ask(const CheckOptions& o, Verdict& verdict, Ask question) {
       [&] {
         Json reply;
         try {
-          reply["answer"] = question(openPlugin(o.file));
+          reply["answer"] = question(openPlugin(fs::absolute(o.file)));
         } catch (const Error& error) {
           reply["error"] = textOf(error);
           reply["code"] = static_cast<int>(error.failure());
@@ -97,7 +98,6 @@ Introduction introduce(const CheckOptions& o) {
 
 // A scene finds it by its name, in a folder of its kind.
 Verdict isFound(const CheckOptions& o, const Introduction& plugin) {
-  namespace fs = std::filesystem;
   Judge judge;
   const fs::path file = fs::absolute(o.file);
   const std::string folder = file.parent_path().filename().string();
@@ -130,9 +130,9 @@ ParamList parameters(const CheckOptions& o, const Introduction& plugin,
 void print(const CheckOptions& o, const Law& law, const Verdict& v, std::size_t width) {
   const char* word = v.failures ? "FAIL" : !v.skipped.empty() ? "skipped" : "ok";
   if (o.quiet && !v.failures) return;
-  fmt::print("{:<7}  {:<{}}  {}\n", word, law.name, width, law.promise);
-  if (!v.skipped.empty()) fmt::print("{:9}{}\n", "", v.skipped);
-  if (v.failures > 0 && v.trials > 1)
+  const std::string why = v.skipped.empty() ? "" : fmt::format(" ({})", v.skipped);
+  fmt::print("{:<7}  {:<{}}  {}{}\n", word, law.name, width, law.promise, why);
+  if (v.failures > 1)
     fmt::print("{:9}{} of {} trials failed{}:\n", "", v.failures, v.trials,
                v.failures > v.findings.size() ? ", among them" : "");
   for (const std::string& finding : v.findings) fmt::print("{:9}- {}\n", "", finding);
@@ -215,9 +215,12 @@ int check(const CheckOptions& o) {
     ++tried;
     failed += v.failures ? 1 : 0;
     skipped += v.skipped.empty() || v.failures ? 0 : 1;
+    if (law.name == laws::kMade && v.failures) break;
   }
-  fmt::print("{}{} laws: {} ok, {} failed, {} skipped\n", o.quiet ? "" : "\n", tried,
+  fmt::print("{}{} laws: {} ok, {} failed, {} skipped", o.quiet ? "" : "\n", tried,
              tried - failed - skipped, failed, skipped);
+  if (tried < chosen.size()) fmt::print(", {} not tried", chosen.size() - tried);
+  fmt::print("\n");
   return failed ? 1 : 0;
 }
 
