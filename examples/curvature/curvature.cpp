@@ -45,7 +45,6 @@ class Curvature final : public SamplingIntegrator {
     const double M = 0.5 * (glm::dot(nu, pv) + glm::dot(nv, pu));
     const double area2 = E * G - F * F;
     if (!(area2 > 1e-12 * E * G)) return 0;
-    // Flipped by ReverseOrientation, n points against what the surface calls outwards.
     const double bent = gaussian_ ? (L * N - M * M) / area2 * radius_ * radius_
                                   : (L * G - 2 * M * F + N * E) / (2 * area2) * radius_;
     return static_cast<float>(bent);

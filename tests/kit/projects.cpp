@@ -23,11 +23,15 @@ struct Project {
   std::string label() const {
     std::string text = (kind.empty() ? "example" : kind) + "_" + name + "_" +
                        fs::path(compiler).filename().string();
-    std::ranges::replace_if(
-        text, [](char c) { return !std::isalnum(c); }, '_');
+    for (char& c : text)
+      if (!std::isalnum(static_cast<unsigned char>(c))) c = c == '+' ? 'x' : '_';
     return text;
   }
 };
+
+void PrintTo(const Project& project, std::ostream* out) {
+  *out << project.label();
+}
 
 // Runs a line of a shell with the programs of the prefix in PATH.
 Outcome run(const fs::path& folder, const std::string& compiler, const std::string& line) {
