@@ -40,6 +40,7 @@ std::vector<LawCase> lawCases() {
       add(laws::shapeObjectLaws());
       if (shape->color()) add(laws::shapeColourLaws());
       if (shape->areaSampler()) add(laws::shapeAreaLaws());
+      if (shape->implicit()) add(laws::implicitLaws());
     } catch (const Error& error) {
       ADD_FAILURE() << "give \"" << c.shape << "\" parameters in the table: " << error.what();
     }

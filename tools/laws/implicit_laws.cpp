@@ -2,7 +2,7 @@
 
 #include "core/base/rng.h"
 #include "core/base/warp.h"
-#include "laws.h"
+#include "shape_laws.h"
 
 namespace pbrt::laws {
 namespace {

@@ -11,7 +11,6 @@ inline constexpr std::string_view kMade = "is-made";
 std::span<const Law> commonLaws();
 
 std::span<const Law> shapeLaws();
-std::span<const Law> implicitLaws();  // for shapes that have implicit(); others skip them
 std::span<const Law> materialLaws();
 std::span<const Law> textureLaws();
 std::span<const Law> lightLaws();

@@ -13,6 +13,8 @@ std::span<const Law> shapeObjectLaws();
 std::span<const Law> shapeColourLaws();
 // Of those that can be area lights.
 std::span<const Law> shapeAreaLaws();
+// Of those that lend an implicit field.
+std::span<const Law> implicitLaws();
 // Of those that are handed over as triangles.
 std::span<const Law> meshLaws();
 

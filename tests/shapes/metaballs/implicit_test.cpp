@@ -137,13 +137,6 @@ INSTANTIATE_TEST_SUITE_P(
              std::to_string(std::get<1>(test.param));
     });
 
-TEST(MetaballsPlugin, ObeysTheLawsOfImplicitSurfaces) {
-  const PluginInfo& plugin = pbrt::test::loader().open(PluginKind::shape, "metaballs");
-  for (const laws::Law& law : laws::implicitLaws())
-    pbrt::test::obey({&plugin, {pbrt::test::points("P", {0, 0, 0, 0.8F, 0, 0, 0.3F, 0.7F, 0})}, {}},
-                     law);
-}
-
 TEST(MetaballsPlugin, LendsNoFieldWithoutASurface) {
   const auto shape = pbrt::test::make<Shape>(
       "metaballs", {pbrt::test::points("P", {0, 0, 0}), pbrt::test::number("threshold", 1e9F)});

@@ -11,9 +11,8 @@ namespace pbrt::test {
 // A plug-in of a class that is in no shared object.
 template <class Interface, class Class>
 const PluginInfo* pluginOf() {
-  static const PluginInfo info{kAbiVersion, compiledFingerprint(), kindOf<Interface>,
-                               "flawed",    "only for tests",      createPlugin<Interface, Class>,
-                               nullptr};
+  static const PluginInfo info{
+      {}, kindOf<Interface>, "flawed", "only for tests", createPlugin<Interface, Class>, nullptr};
   return &info;
 }
 

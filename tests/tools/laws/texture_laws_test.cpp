@@ -41,8 +41,7 @@ template <Flaw flaw>
 const PluginInfo& ramp() {
   using Number = typename Of<flaw>::template Ramp<float>;
   using Colour = typename Of<flaw>::template Ramp<Spectrum>;
-  static const PluginInfo info{kAbiVersion,
-                               compiledFingerprint(),
+  static const PluginInfo info{{},
                                PluginKind::texture,
                                "own",
                                "of the test",
