@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "law.h"
+#include "making.h"
 
 namespace pbrt::laws {
 
@@ -25,21 +26,13 @@ inline Subject with(Subject subject, const ParamList& more) {
   return subject;
 }
 
-// What a plug-in says it reads, as `pbrt --describe` shows it.
-template <class Interface>
+// What a plug-in says it reads.
 class Declared {
  public:
-  explicit Declared(const Subject& subject, const typename Interface::Setup& setup = {}) {
-    Params params = Params::describing(subject.plugin->name, all_);
-    try {
-      create<Interface>(*subject.plugin, params, setup);
-    } catch (const Error&) {
-      return;  // of zeros where something is required no object may come
-    }
-  }
+  explicit Declared(const Subject& subject) : all_(declarationsOf(*subject.plugin)) {}
 
   bool has(std::string_view name) const {
-    return std::ranges::any_of(all_, [&](const Declaration& d) { return d.name == name; });
+    return std::ranges::find(all_, name, &Declaration::name) != all_.end();
   }
   bool has(const ParamList& list) const {
     return std::ranges::all_of(list, [&](const Param& p) { return has(p.name); });
