@@ -29,7 +29,7 @@ namespace pbrt {
 // becomes the greatest; the surface and its normal do not.
 class ImplicitShape : public Shape {
  public:
-  // At most `cells` boxes, and at least half as many if the field is not too coarse; none for 0: no
+  // Splits the bounds into at most `cells` boxes (core/plugin/implicit_cells.h); 0: there is no
   // surface. Throws Error for bounds that are empty or not finite.
   ImplicitShape(std::unique_ptr<const ImplicitField> field, std::size_t cells);
   ~ImplicitShape() override;

@@ -136,6 +136,11 @@ TEST(FirstZero, OfALogarithm) {
 }
 TEST(FirstZero, PassesAPole) {
   findsAll(test::Pole{}, 500);
+  const Formula field(test::Pole{});
+  const auto hit = first(field, {{-0.9, 0.1, 0.2}, {1, 0.1, 0}});
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(*hit, 1.4, 1e-14);
+  EXPECT_FALSE(first(field, {{0.4, 0.1, 0.2}, {-1, 0.1, 0}}));
 }
 
 // Both of two sheets that are a millionth apart, at all angles.
