@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <utility>
 
@@ -145,11 +146,6 @@ AccelDevice::AccelDevice(int threads)
                                ? fmt::format("threads={}", threads).c_str()
                                : nullptr)) {
   if (!device_) check(nullptr, "starting the ray tracer");
-  const auto count = [](void* bytes, ssize_t more, bool) {
-    static_cast<std::atomic<std::int64_t>*>(bytes)->fetch_add(more, std::memory_order_relaxed);
-    return true;  // Embree may go on
-  };
-  rtcSetDeviceMemoryMonitorFunction(device(device_), count, &bytes_);
 }
 
 AccelDevice::~AccelDevice() {
