@@ -20,7 +20,8 @@ std::string text(const Features& f) {
   std::string scene =
       "LookAt 0 4 12  0 0 0  0 1 0\nSampler \"random\" \"integer pixelsamples\" 4\n"
       "Film \"image\" \"integer xresolution\" 256 \"integer yresolution\" 256 " +
-      f.film + "\nCamera \"perspective\" \"float fov\" 30\n" + f.options +
+      f.film + "\nIntegrator \"directlighting\" Camera \"perspective\" \"float fov\" 30\n" +
+      f.options +
       "WorldBegin\nLightSource \"point\" \"point from\" [3 8 5] \"rgb I\" [90 90 90]\n" + f.world +
       "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] \"point P\" "
       "[-9 -1 9  9 -1 9  9 -1 -9  -9 -1 -9]\n";
@@ -30,7 +31,7 @@ std::string text(const Features& f) {
 }
 
 void render(benchmark::State& state, const Features& features) {
-  const auto scene = test::buildText(text(features), {.threads = 1});
+  const auto scene = test::buildText(text(features), {.dialect = Dialect::v3, .threads = 1});
   std::uint64_t rays = 0;
   RenderControl control;
   control.threads = 1;

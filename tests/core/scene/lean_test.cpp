@@ -148,5 +148,26 @@ TEST(Lean, WhatIsUsedInTheEndIsOpened) {
             "textures/checkerboard", "volumes/homogeneous", "integrators/single"}));
 }
 
+// Building the tree of many lights takes longer than reading them.
+TEST(Lean, WhatChoosesLightsIsPreparedForThoseWhoChooseSo) {
+  const auto prepared = [](const std::string& integrator) {
+    const auto scene =
+        buildText("Integrator " + integrator +
+                  "\nWorldBegin LightSource \"point\" LightSource \"point\" WorldEnd\n");
+    return std::pair(!scene->lightTree().empty(), scene->lightPowers().total() > 0);
+  };
+  const std::pair none(false, false), tree(true, false), powers(false, true);
+  EXPECT_EQ(prepared("\"directlighting\""), none);
+  EXPECT_EQ(prepared("\"directlighting\" \"string strategy\" \"one\""), none);
+  EXPECT_EQ(prepared("\"directlighting\" \"string strategy\" \"weighted\""), tree);
+  EXPECT_EQ(prepared("\"whitted\""), none);
+  EXPECT_EQ(prepared("\"ambientocclusion\""), none);
+  for (const std::string path : {"\"path\"", "\"volpath\""}) {
+    EXPECT_EQ(prepared(path + "\"string lightsamplestrategy\" \"uniform\""), none);
+    EXPECT_EQ(prepared(path + "\"string lightsamplestrategy\" \"power\""), powers);
+    EXPECT_EQ(prepared(path + "\"string lightsamplestrategy\" \"spatial\""), tree);
+  }
+}
+
 }  // namespace
 }  // namespace pbrt::test
