@@ -50,20 +50,6 @@ Error tooFar(const Location& where, float reach, std::string_view what) {
                              what, reach)};
 }
 
-// Embree's own hits of triangles, which it asks about one by one.
-template <bool shadow>
-void filterHits(const RTCFilterFunctionNArguments* a) {
-  const auto& filter = *static_cast<const HitFilter*>(a->geometryUserPtr);
-  const auto& rays = static_cast<const QueryContext*>(a->context)->source;
-  for (unsigned i = 0; i < a->N; ++i) {
-    if (!a->valid[i]) continue;
-    const Hit hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
-                  RTCHitN_v(a->hit, a->N, i),      RTCHitN_primID(a->hit, a->N, i),
-                  RTCHitN_geomID(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0)};
-    if (!filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow)) a->valid[i] = 0;
-  }
-}
-
 }  // namespace
 
 struct Accel::UserGeometry {
