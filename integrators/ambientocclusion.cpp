@@ -25,6 +25,7 @@ class AmbientOcclusion final : public SamplingIntegrator {
         scale_(p.nonNegative("scale", 1, "of a point that sees all of the sky")) {}
 
   bool usesLights() const override { return false; }
+  bool mayChooseBy(LightStrategy) const override { return false; }
 
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch&) const override {

@@ -40,6 +40,7 @@ class Debug final : public SamplingIntegrator {
       : shown_{quantity(p, "red", "u"), quantity(p, "green", "v"), quantity(p, "blue", "zero")} {}
 
   bool usesLights() const override { return false; }
+  bool mayChooseBy(LightStrategy) const override { return false; }
 
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler&,
               Scratch& scratch) const override {

@@ -25,6 +25,7 @@ class DirectLighting final : public SamplingIntegrator {
     choice_ = strategy == "one" ? LightStrategy::uniform : LightStrategy::spatial;
   }
 
+  bool mayChooseBy(LightStrategy s) const override { return !all_ && s == choice_; }
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch& scratch) const override {
     return Li(world, ray, hit, sampler, scratch, 0);

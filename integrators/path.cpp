@@ -14,6 +14,7 @@ namespace {
 class Path final : public SamplingIntegrator {
  public:
   explicit Path(Params& p) : params_(p) {}
+  bool mayChooseBy(LightStrategy s) const override { return s == params_.strategy; }
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,
               Sampler& sampler, Scratch& scratch) const override {

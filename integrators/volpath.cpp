@@ -97,6 +97,7 @@ class VolPath final : public SamplingIntegrator {
  public:
   explicit VolPath(Params& p) : params_(p) {}
   bool tracesMedia() const override { return true; }
+  bool mayChooseBy(LightStrategy s) const override { return s == params_.strategy; }
 
   Spectrum Li(const World& world, const RayDifferential& cameraRay, const Hit& firstHit,
               Sampler& sampler, Scratch& scratch) const override {

@@ -13,6 +13,8 @@ class Whitted final : public SamplingIntegrator {
   explicit Whitted(Params& p)
       : maxDepth_(p.integer("maxdepth", 5, 0, 1000, "longest chain of mirrors and glass")) {}
 
+  bool mayChooseBy(LightStrategy) const override { return false; }
+
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch& scratch) const override {
     return Li(world, ray, hit, sampler, scratch, 0);

@@ -1,7 +1,6 @@
 #include "stats.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <chrono>
@@ -21,8 +20,9 @@ struct Resident {
 Resident resident(const PluginLoader& loader) {
   Resident r;
   std::vector<std::string> files;
+  std::error_code gone;
   for (const LoadedPlugin& plugin : loader.opened())
-    files.push_back(std::filesystem::canonical(plugin.file));
+    files.push_back(std::filesystem::canonical(plugin.file, gone));
   std::ifstream maps("/proc/self/smaps");
   double* of = nullptr;  // what the lines are about; null: no file
   for (std::string line; std::getline(maps, line);) {
@@ -42,20 +42,26 @@ Resident resident(const PluginLoader& loader) {
   return r;
 }
 
+// The most that it was so far. (getrusage counts what there was before the program began, too.)
+double mostResident() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmHWM:")) return 1024 * std::stod(line.substr(6));
+  return 0;
+}
+
 std::string memory(std::unique_ptr<Scene> scene, const PluginLoader& loader) {
   const Resident r = resident(loader);
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
   std::vector<MemoryPart> parts = takeApart(std::move(scene));
   parts.push_back({"code of plug-ins", r.plugins});
   parts.push_back({"code of pbrt and libraries", r.libraries});
-  double rest = r.all;  // stacks, free memory; below 0 if much was reserved and not used
+  double rest = r.all;  // stacks, buffers; below 0 where the heap has pages not used yet
   for (const MemoryPart& part : parts) rest -= part.bytes;
   parts.push_back({"all else", rest});
 
   constexpr double kMiB = 1 << 20;
   std::string text = fmt::format("Memory    {:.1f} MiB at most; {:.1f} MiB with the picture:\n",
-                                 static_cast<double>(usage.ru_maxrss) / 1024, r.all / kMiB);
+                                 std::max(mostResident(), r.all) / kMiB, r.all / kMiB);
   for (const MemoryPart& part : parts)
     text += fmt::format("  {:8.1f} {}\n", part.bytes / kMiB, part.name);
   return text;

@@ -9,6 +9,7 @@ namespace pbrt {
 class Film;
 class SamplingIntegrator;
 class VolumeIntegrator;
+enum class LightStrategy : std::uint8_t;  // core/api/light_choice.h
 struct RenderControl;  // core/scene/render.h: which samples, how many threads, who is told
 
 class Integrator {
@@ -30,6 +31,9 @@ class Integrator {
 
   // Whether without any light its picture is black.
   virtual bool usesLights() const { return true; }
+  // Whether it may choose lights by this (LightChoice). What it does not is not prepared, and would
+  // choose each light as often.
+  virtual bool mayChooseBy(LightStrategy) const { return true; }
   // Whether it traces light through media itself. Others see surfaces alone.
   virtual bool tracesMedia() const { return false; }
   // What they are able to do; null: not that.

@@ -2,15 +2,38 @@
 // A two-dimensional array stored block by block: neighbours in both directions share cache lines,
 // and one thread can own a block without touching the lines of another.
 
+#include <cstddef>
+#include <cstdlib>
+#include <new>
+#include <type_traits>
 #include <vector>
 
 #include "core/base/math.h"
 
 namespace pbrt {
 
-// Blocks are squares of `size` cells, numbered row by row; those at the right and lower edge may
-// stand out of the array. With an apron each block also stores that many cells beyond its edges,
-// its own and not its neighbours'.
+// Memory that is zero when it comes: the system brings a page when a thread first writes there.
+template <class T>
+struct ZeroedAllocator {
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(std::max_align_t));
+  using value_type = T;
+
+  ZeroedAllocator() = default;
+  template <class U>
+  explicit ZeroedAllocator(const ZeroedAllocator<U>&) {}
+
+  T* allocate(std::size_t n) {
+    if (void* p = std::calloc(n, sizeof(T))) return static_cast<T*>(p);
+    throw std::bad_alloc();
+  }
+  void deallocate(T* p, std::size_t) { std::free(p); }
+  void construct(T*) {}  // it is zero already
+  bool operator==(const ZeroedAllocator&) const { return true; }
+};
+
+// Cells are zero at first, byte by byte. Blocks are squares of `size` cells, numbered row by row;
+// those at the right and lower edge may stand out of the array. With an apron each block also
+// stores that many cells beyond its edges, its own and not its neighbours'.
 template <class T>
 class BlockedArray {
  public:
@@ -41,7 +64,7 @@ class BlockedArray {
   std::size_t index(int block, int y) const { return (std::size_t(block) * stride_ + y) * stride_; }
 
   int size_ = 1, apron_ = 0, across_ = 0, down_ = 0, stride_ = 1;
-  std::vector<T> cells_;
+  std::vector<T, ZeroedAllocator<T>> cells_;
 };
 
 }  // namespace pbrt

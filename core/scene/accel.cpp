@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <utility>
 
@@ -47,20 +48,6 @@ bool isWithin(const Bounds3& b, float reach) {
 Error tooFar(const Location& where, float reach, std::string_view what) {
   return {where, fmt::format("{} farther than {:.0e} from the camera, too far for the ray tracer",
                              what, reach)};
-}
-
-// Embree's own hits of triangles, which it asks about one by one.
-template <bool shadow>
-void filterHits(const RTCFilterFunctionNArguments* a) {
-  const auto& filter = *static_cast<const HitFilter*>(a->geometryUserPtr);
-  const auto& rays = static_cast<const QueryContext*>(a->context)->source;
-  for (unsigned i = 0; i < a->N; ++i) {
-    if (!a->valid[i]) continue;
-    const Hit hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
-                  RTCHitN_v(a->hit, a->N, i),      RTCHitN_primID(a->hit, a->N, i),
-                  RTCHitN_geomID(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0)};
-    if (!filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow)) a->valid[i] = 0;
-  }
 }
 
 }  // namespace
@@ -145,11 +132,6 @@ AccelDevice::AccelDevice(int threads)
                                ? fmt::format("threads={}", threads).c_str()
                                : nullptr)) {
   if (!device_) check(nullptr, "starting the ray tracer");
-  const auto count = [](void* bytes, ssize_t more, bool) {
-    static_cast<std::atomic<std::int64_t>*>(bytes)->fetch_add(more, std::memory_order_relaxed);
-    return true;  // Embree may go on
-  };
-  rtcSetDeviceMemoryMonitorFunction(device(device_), count, &bytes_);
 }
 
 AccelDevice::~AccelDevice() {

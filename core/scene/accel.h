@@ -1,7 +1,6 @@
 #pragma once
 // The ray tree. accel.cpp, with accel_query.h, is the only file that knows Embree (3 or 4).
 
-#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -23,13 +22,9 @@ class AccelDevice {
   AccelDevice(const AccelDevice&) = delete;
   AccelDevice& operator=(const AccelDevice&) = delete;
 
-  // What its trees take now, in bytes, without the few that each geometry takes.
-  std::int64_t bytes() const { return bytes_; }
-
  private:
   friend class Accel;
   void* device_;
-  std::atomic<std::int64_t> bytes_{0};  // as Embree's threads tell
 };
 
 // Surfaces with holes: is asked about every hit on the way, from many threads at once.

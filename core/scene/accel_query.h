@@ -7,6 +7,7 @@
 #include <embree3/rtcore.h>
 #endif
 #include "core/api/world.h"
+#include "core/scene/accel.h"
 
 namespace pbrt {
 
@@ -29,6 +30,20 @@ using EmbreeContext = RTCIntersectContext;
 struct QueryContext : EmbreeContext {
   RaySource source;
 };
+
+// Embree's own hits of triangles, which it asks about one by one.
+template <bool shadow>
+void filterHits(const RTCFilterFunctionNArguments* a) {
+  const auto& filter = *static_cast<const HitFilter*>(a->geometryUserPtr);
+  const auto& rays = static_cast<const QueryContext*>(a->context)->source;
+  for (unsigned i = 0; i < a->N; ++i) {
+    if (!a->valid[i]) continue;
+    const Hit hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
+                  RTCHitN_v(a->hit, a->N, i),      RTCHitN_primID(a->hit, a->N, i),
+                  RTCHitN_geomID(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0)};
+    if (!filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow)) a->valid[i] = 0;
+  }
+}
 
 // One call into Embree. Version 4 took the context out of the calls and put optional arguments in.
 class Query {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "core/api/light_choice.h"
 #include "core/scene/moving_camera.h"
 #include "core/scene/scene_builder.h"
 
@@ -238,13 +239,16 @@ std::unique_ptr<Scene> SceneBuilder::finish() {
   for (const auto& g : scene.root_.geometries)
     if (g->light) addLight(*g->light);
 
-  if (scene.lights_.size() > 1) {
+  const auto prepares = [&](LightStrategy s) {
+    return scene.lights_.size() > 1 && scene.integrator_->mayChooseBy(s);
+  };
+  if (prepares(LightStrategy::power)) {
     const double radius = scene.bounds_.empty() ? 1 : 0.5 * glm::length(scene.bounds_.diagonal());
     std::vector<double> powers;
     for (const Light* light : scene.lights_) powers.push_back(light->power(radius));
     scene.lightPowers_ = {static_cast<int>(powers.size()), std::move(powers)};
-    scene.lightTree_ = LightTree(scene.lights_);
   }
+  if (prepares(LightStrategy::spatial)) scene.lightTree_ = LightTree(scene.lights_);
 
   finishMedia();
   if (scene.bounds_.empty() && scene.media_.empty())

@@ -2,35 +2,45 @@
 
 #include <malloc.h>
 
+#include <fstream>
+#include <string>
+
 #include "core/scene/scene.h"
 
 namespace pbrt {
 
 namespace {
 
-// Of all arenas: what is in use, with the blocks that have pages of their own, and what is free and
-// not given back to the system.
-struct Heap {
+// The heap of all arenas, and what is not on it: Embree has large blocks from the system itself.
+struct Reading {
   const struct mallinfo2 info = mallinfo2();
-  double used = static_cast<double>(info.uordblks) + static_cast<double>(info.hblkhd);
-  double free = static_cast<double>(info.fordblks);
+  const double own = static_cast<double>(info.hblkhd);  // blocks with pages of their own
+  const double used = static_cast<double>(info.uordblks) + own;
+  const double free = static_cast<double>(info.fordblks);  // and not given back to the system
+  const double all = residentBytes();
+  const double outside = all - static_cast<double>(info.arena) - own;
 };
 
 }  // namespace
 
+double residentBytes() {
+  std::ifstream status("/proc/self/smaps_rollup");  // counted, where others estimate
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("Rss:")) return 1024 * std::stod(line.substr(4));
+  return 0;
+}
+
 std::vector<MemoryPart> takeApart(std::unique_ptr<Scene> scene) {
-  // Embree has large blocks from the system itself, and small ones, which count twice, from the
-  // heap.
-  const auto trees = static_cast<double>(scene->device_.bytes());
-  const Heap start;
+  const Reading start;
   std::vector<Group*> groups = {&scene->root_};
   for (const auto& object : scene->objects_) groups.push_back(object.get());
 
   std::vector<MemoryPart> parts;
   const auto measure = [&](std::string_view name, const auto& free) {
-    const Heap before;
+    const Reading before;
     free();
-    parts.push_back({name, before.used - Heap().used});
+    const Reading after;
+    parts.push_back({name, before.used - after.used + before.outside - after.outside});
   };
   const auto eachGeometry = [&](const auto& free) {
     for (Group* group : groups)
@@ -68,8 +78,7 @@ std::vector<MemoryPart> takeApart(std::unique_ptr<Scene> scene) {
     for (Group* group : groups) group->geometries.clear();
   });
   measure("ray trees and instances", [&] { scene.reset(); });
-  parts.back().bytes += trees;
-  parts.push_back({"text of the scene, and what else there is", Heap().used});
+  parts.push_back({"text of the scene, and what else there is", Reading().used});
   parts.push_back({"freed, for new use", start.free});
   return parts;
 }

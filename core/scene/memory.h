@@ -9,9 +9,12 @@ namespace pbrt {
 
 class Scene;
 
+// Memory that the process uses, in bytes, as the kernel counts it page by page; 0 if it does not.
+double residentBytes();
+
 struct MemoryPart {
   std::string_view name;
-  double bytes = 0;  // reserved, whether used yet or not
+  double bytes = 0;  // 0 if nothing
 };
 
 // Frees a scene part by part, and tells how much memory that gave back: measured at the end, it

@@ -1,7 +1,9 @@
 #include "core/base/blocked_array.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <fstream>
 #include <set>
 
 namespace pbrt {
@@ -34,6 +36,30 @@ TEST(BlockedArray, BlocksCoverTheArrayRowByRow) {
   EXPECT_EQ(array.corner(2), Point2i(8, 0));
   EXPECT_EQ(array.corner(array.across()), Point2i(0, 4));
   EXPECT_EQ(array.corner(array.blocks() - 1), Point2i(8, 8));
+}
+
+TEST(BlockedArray, IsZeroAtFirstWhateverWasThere) {
+  for (const int size : {5, 2000}) {  // from the heap; from the system
+    { std::vector<int> dirt(std::size_t(size) * size, 7); }
+    const BlockedArray<int> array(size, size, 8);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) EXPECT_EQ(array.row(array.blocks() - 1, y)[x], 0);
+  }
+}
+
+// The first ray need not wait until a large film is cleared.
+TEST(BlockedArray, TakesNoMemoryBeforeItIsWrittenTo) {
+  const auto resident = [] {
+    double all = 0, here = 0;
+    std::ifstream("/proc/self/statm") >> all >> here;
+    return here * static_cast<double>(sysconf(_SC_PAGESIZE));
+  };
+  const double before = resident(), size = 256 << 20;
+  BlockedArray<double> array(1 << 13, 1 << 12, 32);
+  EXPECT_LT(resident() - before, size / 4);
+  for (int block = 0; block < array.blocks(); ++block)
+    for (int y = 0; y < 32; ++y) array.row(block, y)[0] = 1;
+  EXPECT_GT(resident() - before, size / 4);
 }
 
 TEST(BlockedArray, MayBeEmpty) {
