@@ -13,8 +13,9 @@
 
 namespace pbrt::laws {
 
-// `Questions` is made from a Subject, has `count`, ask(i) -> std::array<float, N> and about(i),
-// which tells a person the question. Asking allocates nothing, but for what the plug-in allocates.
+// `Questions` is made from a Subject, may have `names` of the numbers in an answer, has `count`,
+// ask(i) -> std::array<float, N> and about(i), which tells a person the question. Asking allocates
+// nothing, but for what the plug-in allocates.
 template <class Questions>
 struct Steady {
   using Answer = decltype(std::declval<const Questions&>().ask(0));
@@ -27,10 +28,23 @@ struct Steady {
     for (int i = 0; i < questions.count; ++i) all.push_back(questions.ask(i));
     return all;
   }
+  // The first few numbers in which two answers differ, if the questions have names for them.
+  static std::string difference(const Answer& a, const Answer& b) {
+    if constexpr (requires { Questions::names; }) {
+      std::string text;
+      int told = 0;
+      for (std::size_t i = 0; i < a.size() && told < 3; ++i)
+        if (std::memcmp(&a[i], &b[i], sizeof a[i]) != 0)
+          text += fmt::format("{}{} = {}, then {}", told++ == 0 ? "" : "; ", Questions::names[i],
+                              a[i], b[i]);
+      return text;
+    } else {
+      return fmt::format("{}, then {}", fmt::join(a, " "), fmt::join(b, " "));
+    }
+  }
   static void compare(const Questions& questions, int i, const Answer& a, const Answer& b,
                       std::string_view when, Judge& judge) {
-    judge.expect(same(a, b), "{}: {}, then {} {}", questions.about(i), fmt::join(a, " "),
-                 fmt::join(b, " "), when);
+    judge.expect(same(a, b), "{}: {} {}", questions.about(i), difference(a, b), when);
   }
 
   static void repeatable(const Subject& subject, Judge& judge) {
