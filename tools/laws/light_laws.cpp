@@ -180,6 +180,12 @@ struct LightQuestions {
                        uniformSphere({rng.uniform(), rng.uniform()})});
   }
 
+  static constexpr std::array<std::string_view, 19> names = {
+      "sample(p, u).L.x",  "sample(p, u).L.y",  "sample(p, u).L.z", "sample(p, u).wi.x",
+      "sample(p, u).wi.y", "sample(p, u).wi.z", "sample(p, u).p.x", "sample(p, u).p.y",
+      "sample(p, u).p.z",  "sample(p, u).pdf",  "pdf(p)",           "mayHit(p, w)",
+      "emitted(w).x",      "emitted(w).y",      "emitted(w).z",     "escaped(w).x",
+      "escaped(w).y",      "escaped(w).z",      "pdfEscaped(w)"};
   std::array<float, 19> ask(int i) const {
     const auto& [p, u, w] = asked[i];
     const LightSample s = light->sample(p, u);
@@ -211,10 +217,7 @@ struct LightQuestions {
   }
   std::string about(int i) const {
     const auto& [p, u, w] = asked[i];
-    return fmt::format(
-        "sample(p {}, u {}) (L, wi, p, pdf), then pdf(), mayHit(), emitted(), escaped() and "
-        "pdfEscaped() for w {}",
-        show(p), show(u), show(w));
+    return fmt::format("p {}, u {}, w {}", show(p), show(u), show(w));
   }
 
   struct Question {

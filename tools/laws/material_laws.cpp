@@ -180,6 +180,11 @@ struct MaterialQuestions {
     }
   }
 
+  static constexpr std::array<std::string_view, 14> names = {
+      "the number of lobes", "f(wo, wi).x",        "f(wo, wi).y",        "f(wo, wi).z",
+      "pdf(wo, wi)",         "sample(wo, u).f.x",  "sample(wo, u).f.y",  "sample(wo, u).f.z",
+      "sample(wo, u).wi.x",  "sample(wo, u).wi.y", "sample(wo, u).wi.z", "sample(wo, u).pdf",
+      "sample(wo, u).flags", "sample(wo, u).eta"};
   std::array<float, 14> ask(int i) const {
     const auto& [at, wo, wi, u] = asked[i];
     alignas(std::max_align_t) std::array<std::byte, 16384> memory;
@@ -205,10 +210,8 @@ struct MaterialQuestions {
   }
   std::string about(int i) const {
     const auto& [at, wo, wi, u] = asked[i];
-    return fmt::format(
-        "lobes, f(wo {}, wi {}), pdf(), and sample(wo, u {}) (f, wi, pdf, flags, eta) at p {}, "
-        "uv {}",
-        show(wo), show(wi), show(u), show(at.p), show(at.uv));
+    return fmt::format("wo {}, wi {}, u {}, at p {}, uv {}", show(wo), show(wi), show(u),
+                       show(at.p), show(at.uv));
   }
 
   struct Question {

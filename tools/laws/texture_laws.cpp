@@ -136,13 +136,13 @@ struct TextureQuestions {
     for (int i = 0; i < count; ++i) asked.push_back(somewhere(rng, 3));
   }
 
+  static constexpr std::array<std::string_view, 4> names = {
+      "the float texture", "the spectrum texture's red", "its green", "its blue"};
   std::array<float, 4> ask(int i) const {
     const Spectrum c = colour ? colour->evaluate(asked[i]) : Spectrum(0);
     return {number ? number->evaluate(asked[i]) : 0, c.x, c.y, c.z};
   }
-  std::string about(int i) const {
-    return fmt::format("float and spectrum texture at {}", place(asked[i]));
-  }
+  std::string about(int i) const { return fmt::format("at {}", place(asked[i])); }
 
   std::unique_ptr<Texture<float>> number;
   std::unique_ptr<Texture<Spectrum>> colour;
