@@ -11,7 +11,8 @@
 include_guard(GLOBAL)
 include(GNUInstallDirs)
 
-set(PBRT_PLUGIN_KINDS shapes integrators samplers filters cameras lights materials textures volumes)
+set(PBRT_PLUGIN_KINDS shapes integrators samplers filters cameras lights materials textures volumes
+    CACHE INTERNAL "Folders of plug-ins")
 
 function(pbrt_add_plugin kind source)
   if(NOT kind IN_LIST PBRT_PLUGIN_KINDS)

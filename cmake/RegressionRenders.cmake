@@ -19,17 +19,19 @@
 #   PBRT_GOLDEN_ALL   not empty: replace the unchanged ones as well
 #
 # Relative paths begin at the current source folder. The programs are those of PBRT_EXECUTABLE and
-# PBRT_DIFF_EXECUTABLE, else the targets pbrt and pbrt-diff, else those installed with this file,
+# PBRT_DIFF_EXECUTABLE, else the targets pbrt and pbrt-diff (or pbrt::...), else those installed with this file,
 # else those found in PATH.
 
 include_guard(GLOBAL)
 
 # Sets `result` to where the program is, which may be a generator expression.
 function(_pbrt_program result variable program)
-  if(NOT ${variable} AND TARGET ${program})
-    set(${result} $<TARGET_FILE:${program}> PARENT_SCOPE)
-    return()
-  endif()
+  foreach(target ${program} pbrt::${program})
+    if(NOT ${variable} AND TARGET ${target})
+      set(${result} $<TARGET_FILE:${target}> PARENT_SCOPE)
+      return()
+    endif()
+  endforeach()
   find_program(${variable} ${program} HINTS ${CMAKE_CURRENT_FUNCTION_LIST_DIR}/../../../bin
                DOC "The program ${program}" REQUIRED)
   set(${result} ${${variable}} PARENT_SCOPE)
