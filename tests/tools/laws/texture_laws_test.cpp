@@ -39,15 +39,8 @@ struct Of {
 
 template <Flaw flaw>
 const PluginInfo& ramp() {
-  using Number = typename Of<flaw>::template Ramp<float>;
-  using Colour = typename Of<flaw>::template Ramp<Spectrum>;
-  static const PluginInfo info{{},
-                               PluginKind::texture,
-                               "own",
-                               "of the test",
-                               createPlugin<Texture<float>, Number>,
-                               createPlugin<Texture<Spectrum>, Colour>};
-  return info;
+  return own<Texture<float>, typename Of<flaw>::template Ramp<float>,
+             typename Of<flaw>::template Ramp<Spectrum>>();
 }
 
 template <Flaw flaw>

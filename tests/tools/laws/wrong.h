@@ -37,10 +37,19 @@ inline void expectAllHold(const PluginInfo& plugin) {
   }
 }
 
-template <class Interface, class Class>
+// A class of the test as a plug-in.
+template <class Interface, class Class, class ColourClass = void>
 const PluginInfo& own() {
-  static const PluginInfo info{
-      {}, kindOf<Interface>, "own", "of the test", createPlugin<Interface, Class>, nullptr};
+  static const PluginInfo info = [] {
+    PluginInfo plugin{};
+    plugin.kind = kindOf<Interface>;
+    plugin.name = "own";
+    plugin.summary = "of the test";
+    plugin.create = createPlugin<Interface, Class>;
+    if constexpr (!std::is_void_v<ColourClass>)
+      plugin.createSpectrum = createPlugin<Texture<Spectrum>, ColourClass>;
+    return plugin;
+  }();
   return info;
 }
 
