@@ -3,22 +3,22 @@
 #include "core/base/rng.h"
 #include "core/base/warp.h"
 #include "shape_laws.h"
+#include "shape_probe.h"
 
 namespace pbrt::laws {
 namespace {
 
-std::string shown(const DVec3& v) {
-  return fmt::format("({:.9g}, {:.9g}, {:.9g})", v.x, v.y, v.z);
-}
-std::string shown(const Range& r) {
+using laws::show;
+std::string show(const Range& r) {
   return fmt::format("[{:.9g}, {:.9g}]", r.lo, r.hi);
 }
+
+constexpr int kRays = 1000;
 
 // The shape, its field, and places about it.
 class Trial {
  public:
-  Trial(const Subject& subject, Judge& judge) : shape_(subject.make<Shape>()) {
-    field_ = shape_->implicit();
+  Trial(const Subject& subject, Judge& judge) : probe_(subject), field_(probe_.shape().implicit()) {
     if (!field_) {
       judge.skip("it is no implicit surface");
       return;
@@ -26,13 +26,13 @@ class Trial {
     const Bounds3 box = field_->bounds();
     if (!judge.expect(!box.empty() && isFinite(box.lo) && isFinite(box.hi),
                       "the bounds of the field, from {} to {}, are empty or not finite",
-                      shown(DVec3(box.lo)), shown(DVec3(box.hi))))
+                      show(DVec3(box.lo)), show(DVec3(box.hi))))
       field_ = nullptr;
     lo_ = DPoint3(box.lo), hi_ = DPoint3(box.hi);
   }
   explicit operator bool() const { return field_ != nullptr; }
 
-  const Shape& shape() const { return *shape_; }
+  const Shape& shape() const { return probe_.shape(); }
   const ImplicitField& field() const { return *field_; }
   double size() const { return glm::length(hi_ - lo_); }
   double uniform() { return rng_.uniform(); }
@@ -46,26 +46,16 @@ class Trial {
   }
   // From the size of the bounds down to 2^-30 of it.
   double anySize() { return size() * std::exp2(-30 * uniform()); }
-  // So many that asking every primitive takes little time.
-  int rays() const {
-    return std::clamp(static_cast<int>(20'000'000 / shape_->primitives()), 20, 1000);
-  }
   // From outside of the bounds through them; t runs from 0 to 1 as long as it is near.
   ObjectRay ray() {
     const DPoint3 middle = 0.5 * (lo_ + hi_);
     const DPoint3 o = middle + size() * direction();
     return {o, 2.0 * (inBounds() - o), 0, 1};
   }
-  std::optional<ShapeHit> nearest(const ObjectRay& ray) const {
-    std::optional<ShapeHit> best;
-    for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
-      if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->t))
-        best = hit;
-    return best;
-  }
+  std::optional<Found> nearest(const ObjectRay& ray) const { return probe_.nearest(ray); }
 
  private:
-  std::unique_ptr<Shape> shape_;
+  ShapeProbe probe_;
   const ImplicitField* field_ = nullptr;
   DPoint3 lo_{}, hi_{};
   Rng rng_{17};
@@ -86,13 +76,13 @@ void rangesHold(const Subject& subject, Judge& judge) {
       judge.expect(
           holds(range.value, at.value),
           "over the box from {} to {} the field is said to be in {}, but at {} it is {:.9g}",
-          shown(lo), shown(hi), shown(range.value), shown(p), at.value);
+          show(lo), show(hi), show(range.value), show(p), at.value);
       if (std::isnan(at.value)) continue;
       for (int axis = 0; axis < 3; ++axis)
         judge.expect(holds(range.gradient[axis], at.gradient[axis]),
                      "over the box from {} to {} component {} of the gradient is said to be in {}, "
                      "but at {} it is {:.9g}",
-                     shown(lo), shown(hi), axis, shown(range.gradient[axis]), shown(p),
+                     show(lo), show(hi), axis, show(range.gradient[axis]), show(p),
                      at.gradient[axis]);
     }
     const DVec3 u = trial.direction();
@@ -108,7 +98,7 @@ void rangesHold(const Subject& subject, Judge& judge) {
           std::isnan(value) || (line.value.lo <= about.hi && about.lo <= line.value.hi),
           "along {} + s {} for |s| <= {:.9g} the field is said to be in {}, but at {} it is "
           "{:.9g}",
-          shown(lo), shown(u), length, shown(line.value), shown(p), value);
+          show(lo), show(u), length, show(line.value), show(p), value);
     }
   }
 }
@@ -126,7 +116,7 @@ void rangesShrink(const Subject& subject, Judge& judge) {
         value.width() <= 1e-6 * scale + 1e-300,
         "at the point {} the field is {:.9g}, but over a box that is this point alone it is "
         "said to be in {}: searches cannot end",
-        shown(p), at.value, shown(value));
+        show(p), at.value, show(value));
   }
 }
 
@@ -150,7 +140,7 @@ void gradientIsThatOfTheValue(const Subject& subject, Judge& judge) {
     judge.expect(found >= slope.lo - blur && found <= slope.hi + blur,
                  "about {} along {} the field rises by {:.9g} a unit of length, but its gradient "
                  "there says {}",
-                 shown(p), shown(u), found, shown(slope));
+                 show(p), show(u), found, show(slope));
   }
 }
 
@@ -159,22 +149,22 @@ void hitsAreZeros(const Subject& subject, Judge& judge) {
   if (!trial) return;
   int hits = 0, inward = 0;
   std::string example;
-  for (int i = 0; i < trial.rays(); ++i) {
+  for (int i = 0; i < kRays; ++i) {
     const ObjectRay ray = trial.ray();
     const auto hit = trial.nearest(ray);
     if (!hit) continue;
     ++hits;
-    const SurfacePoint s = trial.shape().surface(ray, *hit);
+    const SurfacePoint s = trial.shape().surface(ray, hit->hit);
     const Range about = trial.field().over(s.p - s.error, s.p + s.error).value;
     judge.expect(about.contains(0),
                  "the ray o {} d {} hits at {}, which is off the surface by more than its error "
                  "{:.3g}: the field is in {} there",
-                 shown(ray.o), shown(ray.d), shown(s.p), s.error, shown(about));
+                 show(ray.o), show(ray.d), show(s.p), s.error, show(about));
     const DVec3 step = std::max(1e-6 * trial.size(), 4 * s.error) * DVec3(s.n);
     if (trial.field().at(s.p + step).value > trial.field().at(s.p - step).value && inward++ == 0)
-      example = shown(s.p);
+      example = show(s.p);
   }
-  judge.expect(hits > 0, "{} rays through the bounds of the field hit nothing", trial.rays());
+  judge.expect(hits > 0, "{} rays through the bounds of the field hit nothing", kRays);
   judge.expect(
       inward <= hits / 50,
       "the normal points to where the field is higher, which is inside, at {} of {} points: "
@@ -187,7 +177,7 @@ void noCrossingIsMissed(const Subject& subject, Judge& judge) {
   if (!trial) return;
   constexpr int kSamples = 256;
   const Bounds3 box = trial.field().bounds();
-  for (int i = 0; i < trial.rays(); ++i) {
+  for (int i = 0; i < kRays; ++i) {
     const ObjectRay ray = trial.ray();
     const auto value = [&](double t) { return trial.field().at(ray.at(t)).value; };
     double last = value(0);
@@ -209,7 +199,7 @@ void noCrossingIsMissed(const Subject& subject, Judge& judge) {
           trial.nearest(about).has_value(),
           "the ray o {} d {} crosses the surface at t = {:.9g}, where the field changes its "
           "sign, but nothing is hit there",
-          shown(ray.o), shown(ray.d), a);
+          show(ray.o), show(ray.d), a);
     }
   }
 }

@@ -47,13 +47,13 @@ void hitsLieOnTheRay(ShapeProbe& probe, Judge& judge) {
 void shadowRaysAgree(ShapeProbe& probe, Judge& judge) {
   for (int i = 0; i < ShapeProbe::kHits; ++i) {
     const ObjectRay r = probe.ray();
-    for (std::uint32_t k = 0; k < probe.shape().primitives(); ++k) {
+    probe.primitives(r, [&](std::uint32_t k) {
       const bool occluded = probe.shape().occluded(r, k);
       const bool hit = probe.shape().intersect(r, k).has_value();
       if (hit != occluded)
         judge.fail("primitive {} is {} by intersect(), but occluded() says {}: {}", k,
                    hit ? "hit" : "missed", occluded, show(r));
-    }
+    });
     judge.expect(true, "");
   }
 }
@@ -62,9 +62,9 @@ void rangeOfTIsKept(ShapeProbe& probe, Judge& judge) {
   const Shape& shape = probe.shape();
   for (int i = 0; i < ShapeProbe::kHits; ++i) {
     const ObjectRay r = probe.ray();
-    for (std::uint32_t k = 0; k < shape.primitives(); ++k) {
+    probe.primitives(r, [&](std::uint32_t k) {
       const auto hit = shape.intersect(r, k);
-      if (!hit) continue;
+      if (!hit) return;
       // What the range lets through, each time with the hit or without.
       const auto keeps = [&](ObjectRay cut, bool wanted, const char* where) {
         const bool found = shape.intersect(cut, k).has_value(), blocked = shape.occluded(cut, k);
@@ -91,7 +91,7 @@ void rangeOfTIsKept(ShapeProbe& probe, Judge& judge) {
       judge.expect(again && std::abs(again->t - hit->t) <= 1e-6 * hit->t,
                    "primitive {} is hit at t = {}, but from tMin = {} on {}: {}", k, hit->t,
                    cut.tMin, again ? fmt::format("at t = {}", again->t) : "it is missed", show(r));
-    }
+    });
   }
 }
 

@@ -5,8 +5,18 @@ namespace pbrt::laws {
 ShapeProbe::ShapeProbe(const Subject& subject)
     : traits_(subject.traits), shape_(subject.make<Shape>()) {
   if (shape_->triangles()) return;
-  for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
-    if (const Bounds3 b = shape_->bounds(i); !b.empty()) box_.add(b);
+  constexpr std::uint32_t kGroup = 32;
+  const std::uint32_t all = shape_->primitives();
+  for (std::uint32_t begin = 0; begin < all; begin += kGroup) {
+    const std::uint32_t end = std::min(begin + kGroup, all);
+    Bounds3 group;
+    for (std::uint32_t i = begin; i < end; ++i)
+      if (const Bounds3 b = shape_->bounds(i); !b.empty()) group.add(b);
+    if (group.empty() && all > kGroup) continue;
+    box_.add(group);
+    const DVec3 size(group.diagonal());
+    groups_.push_back({DPoint3(group.lo) - size, DPoint3(group.hi) + size, begin, end});
+  }
   if (box_.empty()) return;
   centre_ = DPoint3(box_.lo) * 0.5 + DPoint3(box_.hi) * 0.5;
   size_ = glm::length(DVec3(box_.hi) - DVec3(box_.lo)) / 2;
@@ -24,9 +34,10 @@ ObjectRay ShapeProbe::ray() {
 
 std::optional<Found> ShapeProbe::nearest(const ObjectRay& ray) const {
   std::optional<Found> best;
-  for (std::uint32_t i = 0; i < shape_->primitives(); ++i)
+  primitives(ray, [&](std::uint32_t i) {
     if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
       best = Found{*hit, i};
+  });
   return best;
 }
 

@@ -2,6 +2,7 @@
 // A shape under test, and the rays that are sent at it.
 
 #include "core/base/rng.h"
+#include "core/base/segment.h"
 #include "core/base/warp.h"
 #include "law.h"
 #include "show.h"
@@ -68,6 +69,14 @@ class ShapeProbe {
   // How much farther than rounding a point may be from where its ray saw it.
   double errorOf(const SurfacePoint& s) const { return traits_.facingWidth > 0 ? 0 : s.error; }
 
+  // Visits the primitives that a ray may meet: all of a few; of many, those whose boxes it passes
+  // at no more than their size, so that bounds that are too small still show.
+  template <class Visit>
+  void primitives(const ObjectRay& ray, Visit visit) const {
+    for (const Group& group : groups_)
+      if (groups_.size() == 1 || clip(ray, group.lo, group.hi).half >= 0)
+        for (std::uint32_t i = group.begin; i < group.end; ++i) visit(i);
+  }
   std::optional<Found> nearest(const ObjectRay& ray) const;
   // Visits all crossings along a ray, each once: visit(point).
   template <class Visit>
@@ -96,8 +105,15 @@ class ShapeProbe {
   }
 
  private:
+  // Primitives that follow one another are mostly neighbours.
+  struct Group {
+    DPoint3 lo, hi;
+    std::uint32_t begin, end;
+  };
+
   Traits traits_;
   std::unique_ptr<Shape> shape_;
+  std::vector<Group> groups_;
   Bounds3 box_;
   DPoint3 centre_{0};
   double size_ = 0;
