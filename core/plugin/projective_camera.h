@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/api/camera.h"
 #include "core/base/warp.h"
 #include "core/plugin/params.h"
 

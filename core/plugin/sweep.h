@@ -1,6 +1,7 @@
 #pragma once
 // What shapes of revolution about the z axis have in common.
 
+#include "core/api/shape.h"
 #include "core/plugin/params.h"
 
 namespace pbrt {
