@@ -37,6 +37,18 @@ std::string textOf(const fs::path& file) {
   return text.str();
 }
 
+// Without the blocks of code, where brackets are no links.
+std::string proseOf(const fs::path& file) {
+  std::string text;
+  bool code = false;
+  for (const std::string& line : linesOf(file)) {
+    const bool fence = line.starts_with("```");
+    code ^= fence;
+    if (!code && !fence) text += line + "\n";
+  }
+  return text;
+}
+
 std::vector<std::smatch> matches(const std::string& text, const std::regex& pattern) {
   return {std::sregex_iterator(text.begin(), text.end(), pattern), {}};
 }
@@ -98,7 +110,7 @@ TEST(Docs, TheSphereNeedsAsManyLinesAsTheTutorialSays) {
 
 TEST(Docs, LinksLeadToFiles) {
   for (const fs::path& document : documents()) {
-    const std::string text = textOf(document);
+    const std::string text = proseOf(document);
     for (const std::smatch& link : matches(text, std::regex(R"(\]\(([^)#\s]+)[^)]*\))"))) {
       const std::string target = link[1];
       if (target.find("://") != std::string::npos) continue;
@@ -123,7 +135,7 @@ std::set<std::string> anchors(const fs::path& document) {
 
 TEST(Docs, LinksLeadToHeadings) {
   for (const fs::path& document : documents()) {
-    const std::string text = textOf(document);
+    const std::string text = proseOf(document);
     std::map<fs::path, std::set<std::string>> headings;
     for (const std::smatch& link : matches(text, std::regex(R"(\]\(([\w./-]*)#([^)]+)\))"))) {
       const fs::path target = link.length(1) ? document.parent_path() / link.str(1) : document;
