@@ -24,5 +24,5 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 set(CPACK_DEBIAN_DEVEL_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVEL_PACKAGE_DEPENDS
-    "pbrt (= ${PROJECT_VERSION}), libglm-dev, libfmt-dev, g++ | c++-compiler, cmake")
+    "pbrt (= ${PROJECT_VERSION}), libglm-dev, libfmt-dev, g++ | c++-compiler, cmake, make | ninja-build")
 include(CPack)
