@@ -46,9 +46,12 @@ ObjectRay ShapeProbe::ray() {
 
 std::optional<Found> ShapeProbe::nearest(const ObjectRay& ray) const {
   std::optional<Found> best;
-  primitives(ray, [&](std::uint32_t i) {
-    if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
-      best = Found{*hit, i};
+  ObjectRay open = ray;  // as far as something nearer may be
+  primitives(open, [&](std::uint32_t i) {
+    const auto hit = shape_->intersect(ray, i);
+    if (!hit || (best && !(hit->t < best->hit.t))) return;
+    best = Found{*hit, i};
+    open.tMax = hit->t;
   });
   return best;
 }

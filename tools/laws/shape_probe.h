@@ -70,7 +70,8 @@ class ShapeProbe {
   double errorOf(const SurfacePoint& s) const { return traits_.facingWidth > 0 ? 0 : s.error; }
 
   // Visits the primitives that a ray may meet: all of a few; of many, those whose boxes it passes
-  // at no more than their size, so that bounds that are too small still show.
+  // at no more than their size, so that bounds that are too small still show. Visits may shorten
+  // the ray.
   template <class Visit>
   void primitives(const ObjectRay& ray, Visit visit) const {
     const DVec3 inverse = 1.0 / ray.d;
