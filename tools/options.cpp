@@ -78,8 +78,9 @@ void defineOptions(CLI::App& app, Options& o) {
       ->expected(4)
       ->allow_extra_args(false);
   app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
-  app.add_flag("--quiet", o.quiet, "Say nothing but errors");
-  app.add_flag("--stats", o.stats, "Tell times, rays, memory and the plug-ins that were opened");
+  app.add_flag("--quiet", o.quiet, "Say nothing but errors, and what --stats tells");
+  auto* stats = app.add_flag("--stats", o.stats,
+                             "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
       ->check(CLI::IsMember({"verbose", "warning", "error"}));
   app.add_option("--plugin-path", o.pluginPath,
@@ -93,10 +94,11 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("--dialect", o.dialect, "Which pbrt the scene is written for: v1, v2, v3, v4")
       ->check(CLI::IsMember({"v1", "v2", "v3", "v4"}));
   auto* check = app.add_flag("--check", o.check,
-                             "Read and build the scene, tell all that is wrong, render nothing");
+                             "Read and build the scene, tell all that is wrong, render nothing")
+                    ->excludes(stats);
   app.add_flag("--format", o.format,
                "Print the scene in a normal form that means the same, with its includes put in")
-      ->excludes(check);
+      ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");

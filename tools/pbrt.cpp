@@ -137,10 +137,9 @@ int render(const Options& o, PluginLoader& loader) {
                                 control.badSamples.load())});
   writePictures(o, *scene, goal, samples, t.rendered - t.ready, outputs);
   t.written = now();
-  if (!o.quiet) {
+  if (!o.quiet)
     for (const std::string& output : outputs) fmt::print("{}\n", output);
-    if (o.stats) fmt::print("{}", stats(std::move(scene), loader, control, samples, t));
-  }
+  if (o.stats) fmt::print("{}", stats(std::move(scene), loader, control, samples, t));
   return judge(o);
 }
 

@@ -53,10 +53,15 @@ double mostResident() {
 std::string memory(std::unique_ptr<Scene> scene, const PluginLoader& loader) {
   const Resident r = resident(loader);
   std::vector<MemoryPart> parts = takeApart(std::move(scene));
+  const std::size_t free = parts.size() - 1;  // it comes last
   parts.push_back({"code of plug-ins", r.plugins});
   parts.push_back({"code of pbrt and libraries", r.libraries});
-  double rest = r.all;  // stacks, buffers; below 0 where the heap has pages not used yet
+  double rest = r.all;  // stacks, buffers
   for (const MemoryPart& part : parts) rest -= part.bytes;
+  if (rest < 0) {  // what is free has pages that were never used
+    parts[free].bytes = std::max(parts[free].bytes + rest, 0.0);
+    rest = 0;
+  }
   parts.push_back({"all else", rest});
 
   constexpr double kMiB = 1 << 20;

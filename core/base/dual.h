@@ -2,6 +2,7 @@
 // Automatic differentiation, forward mode: numbers that carry their partial derivatives along.
 // (Wengert 1964.)
 
+#include <algorithm>
 #include <array>
 
 #include "core/base/range.h"
@@ -104,11 +105,12 @@ struct Dual {
   friend Dual min(const Dual& a, const Dual& b) {
     using std::min;
     if constexpr (std::is_same_v<S, Range>) {
-      if (a.v.hi < b.v.lo) return a;
-      if (b.v.hi < a.v.lo) return b;
+      // Where one has no value, neither has min: the other may be chosen only where both do.
+      if (a.v.hi < b.v.lo && b.bounded()) return a;
+      if (b.v.hi < a.v.lo && a.bounded()) return b;
       return make(min(a.v, b.v), [&](int i) { return hull(a.d[i], b.d[i]); });
     } else {
-      return a.number() < b.number() ? a : b;
+      return a.number() < b.number() || std::isnan(a.number()) ? a : b;
     }
   }
   friend Dual max(const Dual& a, const Dual& b) { return -min(-a, -b); }
@@ -128,6 +130,9 @@ struct Dual {
     r.v = value;
     for (int i = 0; i < N; ++i) r.d[i] = slope(i);
     return r;
+  }
+  bool bounded() const requires std::is_same_v<S, Range> {
+    return std::ranges::all_of(d, [](const Range& slope) { return slope.bounded(); });
   }
   // A function with this value and this slope here.
   Dual chain(const S& value, const S& slope) const {

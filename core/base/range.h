@@ -5,6 +5,10 @@
 
 #include "core/base/math.h"
 
+#if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
+#error "ranges need NaN and infinities: build without -ffast-math"
+#endif
+
 namespace pbrt {
 
 // All real numbers x with lo <= x <= hi; empty unless lo <= hi, so that NaN is empty: where a
@@ -61,9 +65,11 @@ struct Range {
     return notBelow(0, outward(std::sqrt(std::max(x.lo, 0.0)), std::sqrt(x.hi)));
   }
   friend Range min(const Range& x, const Range& y) {
+    if (x.empty() || y.empty()) return none();
     return {std::min(x.lo, y.lo), std::min(x.hi, y.hi)};
   }
   friend Range max(const Range& x, const Range& y) {
+    if (x.empty() || y.empty()) return none();
     return {std::max(x.lo, y.lo), std::max(x.hi, y.hi)};
   }
   // Those of the C library are taken to be off by less than 3 units in the last place: those of

@@ -19,6 +19,7 @@ std::optional<Bounds3> contracted(const ImplicitField& field, const Bounds3& box
   if (!f.value.contains(0)) return {};
   const DPoint3 c = 0.5 * lo + 0.5 * hi;
   const Range centre = field.over(c, c).value;
+  if (centre.empty()) return box;  // no value there: nothing holds from there
   Range term[3];
   for (int i = 0; i < 3; ++i) term[i] = f.gradient[i] * (Range(lo[i], hi[i]) - c[i]);
   if (!(centre + term[0] + term[1] + term[2]).contains(0)) return {};

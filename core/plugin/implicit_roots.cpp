@@ -75,6 +75,12 @@ std::optional<double> Search::within(Part p) {
       continue;
     }
     const Range f = over(m).value;
+    if (f.empty()) {  // no value there: nothing holds from there
+      if (p.b - p.a <= shortest_) return {};
+      push({m, p.b});
+      p.b = m;
+      continue;
+    }
     const Range reach = r.slope * (Range(p.a, p.b) - m);
     if (p.b - p.a <= shortest_ || (reach.width() <= 3 * f.width() && (f + reach).contains(0)))
       return touch(p);

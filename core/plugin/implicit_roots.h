@@ -1,5 +1,5 @@
 #pragma once
-// Where a ray meets an implicit surface, with proof that it does not meet it before.
+// Where a ray meets an implicit surface: by ranges, which prove that it does not meet it before.
 
 #include <optional>
 
@@ -17,8 +17,10 @@ namespace pbrt {
 //   bounded there. A ray that grazes the surface is such a case; a pole is not.
 // - A ray that starts on the surface, to within rounding, does not meet it there.
 // - The work is bounded: after kMostLooks ranges, parts still undecided are settled by the signs of
-//   f at their ends. Fields with good ranges take a few.
-// What is found is off by 2^-48 of the piece and the rounding of the ray, if f is continuous.
+//   f at their ends, without proof: an even number of crossings in one of them is missed. Fields
+//   with good ranges take a few.
+// A crossing that is found is off by 2^-48 of the piece and the rounding of the ray, if f is
+// continuous; a touch by as much as it is short.
 inline constexpr int kMostLooks = 2000;
 std::optional<double> firstZero(const ImplicitField& field, const Segment& piece, bool any);
 

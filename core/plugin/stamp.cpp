@@ -35,6 +35,8 @@ constexpr std::array<std::string_view, 6> kOptionNames = {
     "ThreadSanitizer (-fsanitize=thread)",
     "MemorySanitizer (-fsanitize=memory)"};
 constexpr std::string_view kCutShort = "the file is cut short; build it again";
+// Of what a plug-in may write to. That of ours is a few kB.
+constexpr std::uint64_t kMostData = std::uint64_t{256} << 20;
 constexpr std::uint32_t kSanitizers = kAddressSanitizer | kThreadSanitizer | kMemorySanitizer;
 
 // What a plug-in may be built with here. Sanitizers need their run-time library, which LD_PRELOAD
@@ -116,8 +118,14 @@ std::string refusal(const fs::path& file) {
     // The dynamic linker maps without a look at the size, and would die beyond the end by a signal.
     if (!whole || part.p_offset > size || part.p_filesz > size - part.p_offset)
       return std::string(kCutShort);
+    // The rest of p_memsz is set to zero, wherever that is.
+    if (part.p_type == PT_LOAD && part.p_filesz > part.p_memsz)
+      return "its headers are damaged; build it again";
     // A PluginInfo has pointers that the dynamic linker fills in: it lies among what is written to.
     if (found || part.p_type != PT_LOAD || !(part.p_flags & PF_W)) continue;
+    if (part.p_filesz > kMostData)
+      return fmt::format("it has {} MiB of data that may be written to, a plug-in at most {}",
+                         part.p_filesz >> 20, kMostData >> 20);
     data.resize(part.p_filesz);
     if (!read(part.p_offset, part.p_filesz, data.data())) return std::string(kCutShort);
     const std::size_t at = data.find(magic);

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "core/base/rng.h"
+#include "core/plugin/implicit_surface.h"
 #include "core/plugin/kind.h"
 #include "core/plugin/params.h"
 
@@ -81,6 +82,7 @@ consteval std::uint64_t layout() {
               Distribution2D, Error, Diagnostic, Location>(),
       sizesOf<SurfacePoint, SurfaceInteraction, ShapeHit, AreaSample, AreaSampler, TriangleMesh,
               Shape, MeshShape, SurfaceColor>(),
+      sizesOf<Range, FieldPoint, FieldRange, LineRange, ImplicitField, ImplicitShape>(),
       sizesOf<Light, Light::Setup, LightSample, LightBounds, LightTree>(),
       sizesOf<Camera, Camera::Setup, CameraSample, CameraRay, Filter, Sampler, Sampler::Setup>(),
       sizesOf<Material, Bxdf, Bsdf, BsdfSample, Texture<float>, Texture<float>::Setup,
@@ -95,9 +97,11 @@ consteval std::uint64_t layout() {
       offsetof(SurfaceInteraction, n), offsetof(SurfaceInteraction, wo),
       offsetof(SurfaceInteraction, uv), offsetof(SurfaceInteraction, tangent),
       offsetof(SurfaceInteraction, time), offsetof(SurfaceInteraction, light),
-      offsetof(SurfaceInteraction, objectP), offsetof(LightSample, wi), offsetof(LightSample, p),
-      offsetof(LightSample, pdf), offsetof(BsdfSample, wi), offsetof(BsdfSample, pdf),
-      offsetof(AreaSample, n), offsetof(AreaSample, pdf));
+      offsetof(SurfaceInteraction, objectP), offsetof(FieldPoint, gradient),
+      offsetof(FieldRange, gradient), offsetof(LineRange, slope), offsetof(Range, hi),
+      offsetof(LightSample, wi), offsetof(LightSample, p), offsetof(LightSample, pdf),
+      offsetof(BsdfSample, wi), offsetof(BsdfSample, pdf), offsetof(AreaSample, n),
+      offsetof(AreaSample, pdf));
 }
 
 // By default that of whoever compiles this. In every version the magic text and the ABI number

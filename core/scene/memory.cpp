@@ -2,6 +2,7 @@
 
 #include <malloc.h>
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -11,24 +12,26 @@ namespace pbrt {
 
 namespace {
 
+// Memory in use that is of no file, as the kernel counts it page by page; 0 if it does not. (Pages
+// of files come and go on their own: to free things runs code that was not needed before.)
+double anonymousBytes() {
+  constexpr std::string_view kName = "Anonymous:";
+  std::ifstream status("/proc/self/smaps_rollup");  // counted, where others estimate
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(kName)) return 1024 * std::stod(line.substr(kName.size()));
+  return 0;
+}
+
 // The heap of all arenas, and what is not on it: Embree has large blocks from the system itself.
 struct Reading {
   const struct mallinfo2 info = mallinfo2();
   const double own = static_cast<double>(info.hblkhd);  // blocks with pages of their own
   const double used = static_cast<double>(info.uordblks) + own;
   const double free = static_cast<double>(info.fordblks);  // and not given back to the system
-  const double all = residentBytes();
-  const double outside = all - static_cast<double>(info.arena) - own;
+  const double outside = anonymousBytes() - static_cast<double>(info.arena) - own;
 };
 
 }  // namespace
-
-double residentBytes() {
-  std::ifstream status("/proc/self/smaps_rollup");  // counted, where others estimate
-  for (std::string line; std::getline(status, line);)
-    if (line.starts_with("Rss:")) return 1024 * std::stod(line.substr(4));
-  return 0;
-}
 
 std::vector<MemoryPart> takeApart(std::unique_ptr<Scene> scene) {
   const Reading start;
@@ -40,7 +43,8 @@ std::vector<MemoryPart> takeApart(std::unique_ptr<Scene> scene) {
     const Reading before;
     free();
     const Reading after;
-    parts.push_back({name, before.used - after.used + before.outside - after.outside});
+    const double freed = before.used - after.used + before.outside - after.outside;
+    parts.push_back({name, std::max(freed, 0.0)});
   };
   const auto eachGeometry = [&](const auto& free) {
     for (Group* group : groups)

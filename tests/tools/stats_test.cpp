@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -187,6 +188,32 @@ TEST(Stats, ManyLightsAreLights) {
         fmt::format("LightSource \"point\" \"point from\" [{} {} {}]\n", i % 9, i % 11, i % 13);
   const Stats s = statsOf("Integrator \"path\"\n" + film(16, 16), lights + kSphere);
   expectToDominate(s, "lights", n * 64.0 / (1 << 20), 10);
+}
+
+// They are asked for: --quiet does not silence them.
+TEST(Stats, NeverTellOfLessThanNothing) {
+  const std::regex negative(R"(-\d)");
+  int scenes = 0;
+  for (const auto& file : fs::directory_iterator(PBRT_SOURCE_DIR "/scenes")) {
+    if (file.path().extension() != ".pbrt") continue;
+    ++scenes;
+    const Outcome outcome = Folder().pbrt("--stats --quiet --quick --width 32 --outfile out.exr '" +
+                                          file.path().string() + "'");
+    EXPECT_EQ(outcome.code, 0) << file.path() << outcome.err;
+    EXPECT_TRUE(outcome.out.starts_with("Seconds")) << file.path() << outcome.out;
+    EXPECT_FALSE(std::regex_search(outcome.out, negative)) << file.path() << '\n' << outcome.out;
+  }
+  EXPECT_GT(scenes, 10);
+}
+
+TEST(Stats, AreOfARender) {
+  const Folder folder;
+  folder.write("scene.pbrt", film(16, 16) + "WorldBegin\n" + kSphere + "WorldEnd\n");
+  for (const std::string other : {"--check", "--format"}) {
+    const Outcome outcome = folder.pbrt("--stats " + other + " scene.pbrt");
+    EXPECT_EQ(outcome.code, 2) << other;
+    EXPECT_NE(outcome.err.find("--stats"), outcome.err.npos) << outcome.err;
+  }
 }
 
 // A library that one plug-in needs is not opened without it.

@@ -2,11 +2,18 @@
 
 namespace pbrt::laws {
 
+ShapeProbe::Box ShapeProbe::grown(const Bounds3& b) {
+  const DVec3 edges(b.diagonal());
+  const double more = std::max({edges.x, edges.y, edges.z});
+  return {DPoint3(b.lo) - more, DPoint3(b.hi) + more};
+}
+
 ShapeProbe::ShapeProbe(const Subject& subject)
     : traits_(subject.traits), shape_(subject.make<Shape>()) {
   if (shape_->triangles()) return;
   constexpr std::uint32_t kGroup = 32;
   const std::uint32_t all = shape_->primitives();
+  if (all > kGroup) boxes_.resize(all);
   for (std::uint32_t begin = 0; begin < all; begin += kGroup) {
     const std::uint32_t end = std::min(begin + kGroup, all);
     Bounds3 group;
@@ -14,8 +21,13 @@ ShapeProbe::ShapeProbe(const Subject& subject)
       if (const Bounds3 b = shape_->bounds(i); !b.empty()) group.add(b);
     if (group.empty() && all > kGroup) continue;
     box_.add(group);
-    const DVec3 size(group.diagonal());
-    groups_.push_back({DPoint3(group.lo) - size, DPoint3(group.hi) + size, begin, end});
+    Box about{DPoint3(kInfinity), DPoint3(-kInfinity)};
+    for (std::uint32_t i = begin; i < end && all > kGroup; ++i) {
+      const Bounds3 b = shape_->bounds(i);
+      boxes_[i] = grown(b.empty() ? group : b);
+      about = {glm::min(about.lo, boxes_[i].lo), glm::max(about.hi, boxes_[i].hi)};
+    }
+    groups_.push_back({about, begin, end});
   }
   if (box_.empty()) return;
   centre_ = DPoint3(box_.lo) * 0.5 + DPoint3(box_.hi) * 0.5;
@@ -34,9 +46,12 @@ ObjectRay ShapeProbe::ray() {
 
 std::optional<Found> ShapeProbe::nearest(const ObjectRay& ray) const {
   std::optional<Found> best;
-  primitives(ray, [&](std::uint32_t i) {
-    if (const auto hit = shape_->intersect(ray, i); hit && (!best || hit->t < best->hit.t))
-      best = Found{*hit, i};
+  ObjectRay open = ray;  // as far as something nearer may be
+  primitives(open, [&](std::uint32_t i) {
+    const auto hit = shape_->intersect(ray, i);
+    if (!hit || (best && !(hit->t < best->hit.t))) return;
+    best = Found{*hit, i};
+    open.tMax = hit->t;
   });
   return best;
 }

@@ -1,8 +1,8 @@
 #pragma once
 // A shape under test, and the rays that are sent at it.
 
+#include "core/base/ray.h"
 #include "core/base/rng.h"
-#include "core/base/segment.h"
 #include "core/base/warp.h"
 #include "law.h"
 #include "show.h"
@@ -70,12 +70,15 @@ class ShapeProbe {
   double errorOf(const SurfacePoint& s) const { return traits_.facingWidth > 0 ? 0 : s.error; }
 
   // Visits the primitives that a ray may meet: all of a few; of many, those whose boxes it passes
-  // at no more than their size, so that bounds that are too small still show.
+  // at no more than their size, so that bounds that are too small still show. Visits may shorten
+  // the ray.
   template <class Visit>
   void primitives(const ObjectRay& ray, Visit visit) const {
+    const DVec3 inverse = 1.0 / ray.d;
     for (const Group& group : groups_)
-      if (groups_.size() == 1 || clip(ray, group.lo, group.hi).half >= 0)
-        for (std::uint32_t i = group.begin; i < group.end; ++i) visit(i);
+      if (boxes_.empty() || group.box.isPassed(ray, inverse))
+        for (std::uint32_t i = group.begin; i < group.end; ++i)
+          if (boxes_.empty() || boxes_[i].isPassed(ray, inverse)) visit(i);
   }
   std::optional<Found> nearest(const ObjectRay& ray) const;
   // Visits all crossings along a ray, each once: visit(point).
@@ -105,15 +108,32 @@ class ShapeProbe {
   }
 
  private:
+  // About a primitive, at a distance as large as itself.
+  struct Box {
+    DPoint3 lo, hi;
+
+    bool isPassed(const ObjectRay& ray, const DVec3& inverse) const {
+      double t0 = ray.tMin, t1 = ray.tMax;
+      for (int i = 0; i < 3; ++i) {
+        const double a = (lo[i] - ray.o[i]) * inverse[i], b = (hi[i] - ray.o[i]) * inverse[i];
+        t0 = std::max(t0, std::min(a, b));
+        t1 = std::min(t1, std::max(a, b));
+      }
+      return t0 <= t1 && t0 < kInfinity;
+    }
+  };
+  static Box grown(const Bounds3& b);
+
   // Primitives that follow one another are mostly neighbours.
   struct Group {
-    DPoint3 lo, hi;
+    Box box;
     std::uint32_t begin, end;
   };
 
   Traits traits_;
   std::unique_ptr<Shape> shape_;
   std::vector<Group> groups_;
+  std::vector<Box> boxes_;  // for each primitive of many; of a few none
   Bounds3 box_;
   DPoint3 centre_{0};
   double size_ = 0;

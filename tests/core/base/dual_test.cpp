@@ -138,6 +138,18 @@ TEST(Dual, KinksHaveBothSlopes) {
 }
 
 // Where a formula has a pole, or ends, the slope has no bound.
+// Neither of two has a value where one has none.
+TEST(Dual, LeastAndMostHaveNoValueWithoutBoth) {
+  using D = Dual<double, 1>;
+  const D x(2, {1}), none = sqrt(D(-1, {1}));
+  for (const D& f : {min(x, none), min(none, x), max(x, none), max(none, x)})
+    EXPECT_TRUE(std::isnan(f.v));
+  using T = Dual<Range, 1>;
+  const T about({-1, 1}, {1}), root = 5 + sqrt(about);
+  for (const T& f : {min(about, root), min(root, about), max(-about, -root), max(-root, -about)})
+    EXPECT_FALSE(f.d[0].bounded());
+}
+
 TEST(Dual, SlopesAreUnboundedWhereNothingIsProven) {
   using T = Dual<Range, 1>;
   const T x({-0.1, 0.2}, {1});

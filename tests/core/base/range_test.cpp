@@ -159,9 +159,11 @@ TEST(Range, DoubtIsEverything) {
   EXPECT_TRUE(isAll(Range::all() - Range::all()));
   EXPECT_TRUE(isAll(Range(1e200, 1e250) * Range::all()));
   const Range none = Range::none();
-  for (const Range& r : {none + 1, none * Range::all(), none / 2, 2 / none, -none, abs(none),
-                         sqr(none), sqrt(none), exp(none), log(none), sin(none), cos(none),
-                         pow(none, 2), pow(none, 3), none - none, abs(none) + 1, min(none, 1)}) {
+  for (const Range& r :
+       {none + 1,      none * Range::all(), none / 2,     2 / none,     -none,
+        abs(none),     sqr(none),           sqrt(none),   exp(none),    log(none),
+        sin(none),     cos(none),           pow(none, 2), pow(none, 3), none - none,
+        abs(none) + 1, min(none, 1),        min(1, none), max(none, 1), max(1, none)}) {
     EXPECT_TRUE(r.empty());
     EXPECT_FALSE(r.contains(0));
   }

@@ -95,6 +95,33 @@ struct Logarithm {
   Bounds3 bounds() const { return cube(1); }
 };
 
+// The plane x = 1e-4, by a formula that has no value where x < 0 and is steepest there.
+struct Brink {
+  template <class T>
+  T operator()(const T& x, const T&, const T&) const {
+    return 0.01 - sqrt(x);
+  }
+  Bounds3 bounds() const { return {Point3(-1), Point3(0.9F)}; }
+};
+
+// Almost a cylinder of radius 1, within which alone there are values.
+struct Barrel {
+  template <class T>
+  T operator()(const T& x, const T& y, const T& z) const {
+    return sqrt(1 - sqr(x) - sqr(y)) - 0.05 - 0.001 * sqr(z);
+  }
+  Bounds3 bounds() const { return {Point3(-1.1F), Point3(1)}; }
+};
+
+// Zero at x = 0.4 and 0.6, without values where x < 0, by the other solid.
+struct Cut {
+  template <class T>
+  T operator()(const T& x, const T&, const T&) const {
+    return min(5 + sqrt(x), sqr(x - 0.5) - 0.01);
+  }
+  Bounds3 bounds() const { return {Point3(-1.4F), Point3(1)}; }
+};
+
 // Zero nowhere but at x = 1/2: the sign changes at the pole at x = 0, too.
 struct Pole {
   template <class T>

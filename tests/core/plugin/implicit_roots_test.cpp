@@ -134,6 +134,18 @@ TEST(FirstZero, OfASteepStep) {
 TEST(FirstZero, OfALogarithm) {
   findsAll(test::Logarithm{}, 500);
 }
+TEST(FirstZero, OfABarrelWithoutValuesAround) {
+  findsAll(test::Barrel{}, 500);
+}
+TEST(FirstZero, BesideASolidWithoutValues) {
+  const Formula field(test::Cut{});
+  for (const double from : {-1.4, -1.0, -0.3, 0.0, 0.2}) {
+    const auto hit = first(field, {{from, 0.1, 0.2}, {1, 0, 0}});
+    ASSERT_TRUE(hit) << from;
+    EXPECT_NEAR(*hit, 0.4 - from, 1e-14);
+  }
+  findsAll(test::Cut{}, 500);
+}
 TEST(FirstZero, PassesAPole) {
   findsAll(test::Pole{}, 500);
   const Formula field(test::Pole{});

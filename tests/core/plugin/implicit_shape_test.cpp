@@ -70,6 +70,30 @@ TEST(ImplicitShape, HasAShellOfBoxes) {
   }
 }
 
+// Rays through known points of a surface meet it there.
+template <class F, class Point>
+void expectHitsAt(const F& f, const Point& point) {
+  const auto shape = shapeOf(f);
+  Rng rng(2);
+  int missed = 0;
+  for (int i = 0; i < 1600; ++i) {
+    const DPoint3 p = point(DVec3(rng.uniform(), rng.uniform(), rng.uniform()));
+    const DVec3 d = direction(rng);
+    missed += !nearest(*shape, {p - 3.0 * d, d, 3 - 1e-4, 3 + 1e-4});
+  }
+  EXPECT_EQ(missed, 0);
+}
+
+TEST(ImplicitShape, HasNoHolesWhereItsFormulaIsAtItsEnd) {
+  expectHitsAt(test::Brink{},
+               [](const DVec3& u) { return DPoint3(1e-4, 1.8 * u.y - 0.9, 1.8 * u.z - 0.9); });
+  expectHitsAt(test::Barrel{}, [](const DVec3& u) {
+    const double z = 1.8 * u.z - 0.9, turn = 2 * std::numbers::pi * u.x;
+    const double radius = std::sqrt(1 - sqr(0.05 + 0.001 * z * z));
+    return DPoint3(radius * std::cos(turn), radius * std::sin(turn), z);
+  });
+}
+
 struct Negative : test::Ball {
   template <class T>
   T operator()(const T& x, const T& y, const T& z) const {

@@ -2,6 +2,7 @@
 
 #include "core/plugin/stamp.h"
 
+#include <link.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -45,6 +46,16 @@ class Spoilt : public testing::Test {
     const std::size_t at = bytes_.find(std::string_view(magic.data(), magic.size()));
     EXPECT_LE(at + sizeof(PluginStamp), bytes_.size());
     return at;
+  }
+
+  // Where they lie in bytes_.
+  std::vector<std::size_t> programHeaders() const {
+    ElfW(Ehdr) head;
+    std::memcpy(&head, bytes_.data(), sizeof head);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < head.e_phnum; ++i)
+      all.push_back(head.e_phoff + i * head.e_phentsize);
+    return all;
   }
 
   test::Folder folder_;
@@ -113,6 +124,42 @@ TEST_F(Spoilt, CutShort) {
   EXPECT_GT(refused, 50U);
   bytes_ = whole.substr(0, whole.size() / 2);
   EXPECT_EQ(reason(), "the file is cut short; build it again");
+}
+
+// What the dynamic linker would write to is said to be smaller than what the file has of it: it
+// would set to zero all that lies behind in memory.
+TEST_F(Spoilt, MoreInTheFileThanInMemory) {
+  const std::string good = bytes_;
+  int refused = 0;
+  for (const std::size_t at : programHeaders()) {
+    ElfW(Phdr) part;
+    std::memcpy(&part, good.data() + at, sizeof part);
+    if (part.p_type != PT_LOAD || part.p_filesz == 0) continue;
+    part.p_memsz = part.p_filesz - 1;
+    bytes_ = good;
+    std::memcpy(bytes_.data() + at, &part, sizeof part);
+    EXPECT_EQ(reason(), "its headers are damaged; build it again");
+    ++refused;
+  }
+  EXPECT_GT(refused, 1);
+}
+
+// A file with a hole takes no room on the disk, but what is read of it does.
+TEST_F(Spoilt, ATerabyteOfData) {
+  constexpr std::uint64_t size = std::uint64_t{1} << 40;
+  for (const std::size_t at : programHeaders()) {
+    ElfW(Phdr) part;
+    std::memcpy(&part, bytes_.data() + at, sizeof part);
+    if (part.p_type != PT_LOAD || !(part.p_flags & PF_W)) continue;
+    part.p_filesz = part.p_memsz = size - part.p_offset;
+    std::memcpy(bytes_.data() + at, &part, sizeof part);
+  }
+  write();
+  std::error_code refused;
+  fs::resize_file(file(), size, refused);
+  if (refused) GTEST_SKIP() << "the file system has no files as large: " << refused.message();
+  EXPECT_EQ(refusal(file()),
+            "it has 1048575 MiB of data that may be written to, a plug-in at most 256");
 }
 
 TEST_F(Spoilt, FoldersAndPipes) {

@@ -1,4 +1,4 @@
-#include "core/plugin/implicit_shape.h"
+#include "core/plugin/implicit_surface.h"
 
 #include "core/plugin/implicit_cells.h"
 #include "core/plugin/implicit_roots.h"
@@ -120,10 +120,10 @@ SurfacePoint ImplicitShape::surface(const ObjectRay& ray, const ShapeHit& hit) c
   return at;
 }
 
-// A distance e such that f provably changes its sign between p - e n and p + e n: f(p) is in F, and
-// falls along n by e times a slope in -G . n at least, where G is the range of the gradient over
-// the box about both. e = 2 |F| / |g| is enough while G . n <= -|g| / 2. Where that is not so, as
-// where the surface touches itself, e is what it is.
+// A distance e such that f changes its sign between p - e n and p + e n: f(p) is in F, and falls
+// along n by e times a slope in -G . n at least, where G is the range of the gradient over the box
+// about both. e = 2 |F| / |g| is enough while G . n <= -|g| / 2. While all of -G . n is above zero,
+// this is proved, by a better e; where not, as where the surface touches itself, e is an estimate.
 double ImplicitShape::errorBound(const DPoint3& p, const DVec3& n, double steep,
                                  double size) const {
   const double least = 8 * kEpsilon * size;
