@@ -12,6 +12,13 @@ void boundsHoldTheHits(ShapeProbe& probe, Judge& judge) {
     judge.expect(b.empty() || (isFinite(b.lo) && isFinite(b.hi)),
                  "primitive {} has the bounds {} to {}", i, show(b.lo), show(b.hi));
   }
+  if (judge.failures() > 0) return;
+  if (probe.empty()) {
+    judge.expect(false,
+                 "the box around all its primitives ({}) is empty, from {} to {}: it is nowhere",
+                 probe.shape().primitives(), show(probe.box().lo), show(probe.box().hi));
+    return;
+  }
   probe.forHits(
       ShapeProbe::kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
         const Bounds3 b = probe.shape().bounds(f.primitive);
@@ -152,7 +159,7 @@ void oddRaysAreMetAsWell(ShapeProbe& probe, Judge& judge) {
 
 constexpr Law kLaws[] = {
     {"bounds-hold-every-hit", "What is hit lies within the bounds of its primitive.",
-     traced<boundsHoldTheHits>},
+     traced<boundsHoldTheHits, true>},
     {"hits-lie-on-the-ray", "A hit lies on the ray, at its t, and names its primitive.",
      traced<hitsLieOnTheRay>},
     {"shadow-rays-agree", "occluded() is true where intersect() hits, and only there.",

@@ -50,19 +50,22 @@ std::string outcome(const std::function<std::string()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   limitMemory();
   dup2(STDERR_FILENO, STDOUT_FILENO);
+  std::setvbuf(stdout, nullptr, _IOLBF, BUFSIZ);  // so that whole lines outlive a crash
   const std::string text = outcome(work);
   for (std::size_t sent = 0; sent < text.size();) {
     const ssize_t n = write(to, text.data() + sent, text.size() - sent);
     if (n <= 0) break;
     sent += static_cast<std::size_t>(n);
   }
+  std::fflush(nullptr);
   _exit(0);
 }
 
 // Reads up to the end or to the deadline; false if that came first.
 bool readAll(int from, double seconds, std::string& text) {
   using Clock = std::chrono::steady_clock;
-  const auto deadline = Clock::now() + std::chrono::duration<double>(seconds);
+  // No longer than the clock can count.
+  const auto deadline = Clock::now() + std::chrono::duration<double>(std::min(seconds, 1e9));
   for (std::array<char, 4096> buffer{};;) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(deadline - Clock::now());
     if (left.count() <= 0) return false;
@@ -93,6 +96,7 @@ Ending runApart(const std::function<std::string()>& work, double seconds) {
   waitpid(copy, &status, 0);
 
   const char last = ending.text.empty() ? '\0' : ending.text.back();
+  ending.late = !inTime;
   if (!inTime)
     ending.mishap = fmt::format("did not end within {} s", seconds);
   else if (WIFSIGNALED(status))

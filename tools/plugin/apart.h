@@ -9,8 +9,9 @@ namespace pbrt {
 // How it ended.
 struct Ending {
   std::string text;  // what it returned
-  std::string
-      mishap;  // why it did not return, in words: "crashed: Segmentation fault"; empty: it did
+  // Why it did not return, in words: "crashed: Segmentation fault"; empty: it did.
+  std::string mishap;
+  bool late = false;  // it was still at it when its time was over
 };
 
 // Does the work in a copy of this process, and ends that after so many seconds. It may allocate 4

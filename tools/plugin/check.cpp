@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "apart.h"
 #include "core/parse/parse.h"
@@ -23,7 +24,8 @@ struct Verdict {
   std::vector<std::string> findings;
   std::string skipped;
   int code = 0;  // not 0: an Error ended the work, with this exit code; its text is the finding
-  NLOHMANN_DEFINE_TYPE_INTRUSIVE(Verdict, trials, failures, findings, skipped, code)
+  bool mishap = false, late = false;  // it did not come to its end; not in time
+  NLOHMANN_DEFINE_TYPE_INTRUSIVE(Verdict, trials, failures, findings, skipped, code, mishap, late)
 };
 
 struct Introduction {
@@ -41,6 +43,11 @@ std::string textOf(const Error& error) {
   for (const Diagnostic& d : error.diagnostics())
     text += fmt::format("{}{}", text.empty() ? "" : "\n", format(d));
   return text;
+}
+
+// The message alone of what textOf() gives.
+std::string plain(const std::string& text) {
+  return text.substr(text.find("error: ") + 7);
 }
 
 // Puts the question to the plug-in in a process of its own.
@@ -61,13 +68,14 @@ Answer ask(const CheckOptions& o, Verdict& verdict, Ask question) {
   if (!ending.mishap.empty()) {
     ++verdict.failures, ++verdict.trials;
     verdict.findings.push_back("it " + ending.mishap);
+    verdict.mishap = true, verdict.late = ending.late;
     return {};
   }
   const Json reply = Json::parse(ending.text);
   if (!reply.contains("error")) return reply["answer"].get<Answer>();
   ++verdict.failures, ++verdict.trials;
   verdict.findings.push_back(reply["error"]);
-  verdict.code = reply["code"];
+  verdict.mishap = true, verdict.code = reply["code"];
   return {};
 }
 
@@ -76,8 +84,11 @@ Verdict put(const CheckOptions& o, const ParamList& params, const Law& law) {
   const auto verdict = ask<Verdict>(o, mishap, [&](const PluginInfo& plugin) {
     Judge judge;
     law.check({&plugin, params, o.traits}, judge);
-    return Verdict{judge.trials(), judge.failures(), judge.findings(), judge.skipped(), 0};
+    return Verdict{judge.trials(), judge.failures(), judge.findings(), judge.skipped()};
   });
+  // That of the first law is a message to the user.
+  if (mishap.code && law.name != laws::kMade)
+    mishap.findings[0] = "it threw an Error: " + plain(mishap.findings[0]);
   return mishap.failures ? mishap : verdict;
 }
 
@@ -86,11 +97,8 @@ Introduction introduce(const CheckOptions& o) {
   auto introduction = ask<Introduction>(o, mishap, [](const PluginInfo& plugin) {
     return Introduction{plugin.kind, plugin.name, plugin.summary};
   });
-  if (mishap.code) {
-    // The plain message: what it was about is in it.
-    std::string text = mishap.findings[0];
-    throw Error(text.substr(text.find("error: ") + 7), static_cast<Failure>(mishap.code));
-  }
+  if (mishap.code)  // what it was about is in the message
+    throw Error(plain(mishap.findings[0]), static_cast<Failure>(mishap.code));
   if (mishap.failures)
     throw Error(fmt::format("{}: opened, {}", o.file, mishap.findings[0]), Failure::plugin);
   return introduction;
@@ -107,7 +115,7 @@ Verdict isFound(const CheckOptions& o, const Introduction& plugin) {
     if (folder == kindFolder(static_cast<PluginKind>(i)))
       judge.expect(folder == kindFolder(plugin.kind), "it is a {}, but lies in the folder {}",
                    kindName(plugin.kind), folder);
-  return {judge.trials(), judge.failures(), judge.findings(), "", 0};
+  return {judge.trials(), judge.failures(), judge.findings(), ""};
 }
 
 // The parameters, read as those of a statement. The parser keeps the text to which they point.
@@ -127,15 +135,39 @@ ParamList parameters(const CheckOptions& o, const Introduction& plugin,
   return std::move(directives[0].params);
 }
 
-void print(const CheckOptions& o, const Law& law, const Verdict& v, std::size_t width) {
+// The switch by which the user can tell that a plug-in is meant to be so; empty: there is none, or
+// it was given.
+std::string_view excuse(const CheckOptions& o, std::string_view law) {
+  const laws::Traits& t = o.traits;
+  if (law == "continuous" && !t.hasSteps) return "--has-steps";
+  if (law.ends_with("well-spread") && !t.independentNumbers) return "--independent";
+  if (law == "no-energy-is-made" && t.albedo == laws::Traits().albedo) return "--albedo NUMBER";
+  if (law == "derivatives-foretell-the-neighbourhood" && t.facingWidth > 0 && !t.looksRound)
+    return "--looks-round";
+  constexpr std::string_view facing[] = {
+      "points-lie-on-the-surface", "normals-do-not-turn-to-the-ray", "rays-leave-the-surface"};
+  if (std::ranges::find(facing, law) != std::end(facing) && t.facingWidth == 0)
+    return "--facing-width NUMBER";
+  return "";
+}
+
+// `told`: the findings so far; a cause that breaks many laws is told once.
+void print(const CheckOptions& o, const Law& law, const Verdict& v, std::size_t width,
+           std::set<std::string>& told) {
   const char* word = v.failures ? "FAIL" : !v.skipped.empty() ? "skipped" : "ok";
   if (o.quiet && !v.failures) return;
-  const std::string why = v.skipped.empty() ? "" : fmt::format(" ({})", v.skipped);
-  fmt::print("{:<7}  {:<{}}  {}{}\n", word, law.name, width, law.promise, why);
+  const bool again = v.findings.size() == 1 && !told.insert(v.findings[0]).second;
+  const std::string why = again ? "as above" : v.skipped;
+  fmt::print("{:<7}  {:<{}}  {}{}\n", word, law.name, width, law.promise,
+             why.empty() ? "" : fmt::format(" ({})", why));
   if (v.failures > 1)
     fmt::print("{:9}{} of {} trials failed{}:\n", "", v.failures, v.trials,
                v.failures > v.findings.size() ? ", among them" : "");
-  for (const std::string& finding : v.findings) fmt::print("{:9}- {}\n", "", finding);
+  if (!again)
+    for (const std::string& finding : v.findings) fmt::print("{:9}- {}\n", "", finding);
+  const std::string_view meant = excuse(o, law.name);
+  if (v.failures && !v.mishap && !meant.empty())
+    fmt::print("{:9}if that is meant: {}\n", "", meant);
   std::fflush(stdout);
 }
 
@@ -163,7 +195,9 @@ std::vector<Law> chosenLaws(const CheckOptions& o, PluginKind kind) {
 
 CLI::App* addCheck(CLI::App& app, CheckOptions& o) {
   CLI::App* check = app.add_subcommand("check", "Put a plug-in to the laws of its kind");
-  check->add_option("file", o.file, "The plug-in: torus.so")->required();
+  check->add_option("file", o.file, "The plug-in: torus.so")
+      ->required()
+      ->check([](const std::string& file) { return file.empty() ? "no name of a file" : ""; });
   check->add_option("parameters", o.parameters,
                     "What to make it with, as a scene gives it: '\"float radius\" 2'");
   check->add_option("--law", o.laws, "Only this law; may be given again")->allow_extra_args(false);
@@ -183,6 +217,16 @@ CLI::App* addCheck(CLI::App& app, CheckOptions& o) {
   check
       ->add_flag("--looks-round", o.traits.looksRound,
                  "A shape with the normals of a tube about it")
+      ->group(traits);
+  check->add_flag("--has-steps", o.traits.hasSteps, "A filter whose weight jumps")->group(traits);
+  check
+      ->add_flag("--independent", o.traits.independentNumbers,
+                 "A sampler whose points have nothing to do with one another, even in a pixel")
+      ->group(traits);
+  check
+      ->add_option("--albedo", o.traits.albedo,
+                   "A material that may scatter more light than comes: how many times (default 1)")
+      ->check(positiveNumber())
       ->group(traits);
   check->footer(
       "Each law is tried in a process of its own.\n"
@@ -205,17 +249,19 @@ int check(const CheckOptions& o) {
   if (!o.quiet)
     fmt::print("{}: {} \"{}\", {}\n\n", o.file, kindName(plugin.kind), plugin.name, plugin.summary);
   std::size_t failed = 0, skipped = 0, tried = 0;
+  std::set<std::string> told;
   for (const Law& law : chosen) {
     const Verdict v = law.check ? put(o, params, law) : isFound(o, plugin);
     if (law.name == laws::kMade && v.code) {
       fmt::print(stderr, "{}\n", v.findings[0]);
       return v.code;
     }
-    print(o, law, v, width);
+    print(o, law, v, width, told);
     ++tried;
     failed += v.failures ? 1 : 0;
     skipped += v.skipped.empty() || v.failures ? 0 : 1;
-    if (law.name == laws::kMade && v.failures) break;
+    // What hangs would mostly hang again, for as long.
+    if (v.late || (law.name == laws::kMade && v.failures)) break;
   }
   fmt::print("{}{} laws: {} ok, {} failed, {} skipped", o.quiet ? "" : "\n", tried,
              tried - failed - skipped, failed, skipped);

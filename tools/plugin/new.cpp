@@ -152,7 +152,10 @@ CLI::App* addNew(CLI::App& app, NewPlugin& plugin) {
 }
 
 int writeNew(NewPlugin plugin) {
-  plugin.prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
+  // Not installed where its own package is not, as in a build.
+  const fs::path prefix = fs::read_symlink("/proc/self/exe").parent_path().parent_path();
+  const bool installed = fs::exists(prefix / PBRT_LIBDIR "/cmake/pbrt/pbrtTargets.cmake");
+  if (installed) plugin.prefix = prefix;
   const std::string folder = writeProject(plugin).lexically_normal().string();
   const PluginKind kind = kindByName(plugin.kind);
   if (PluginLoader(PluginLoader::searchPath("")).has(kind, plugin.name))
@@ -160,6 +163,12 @@ int writeNew(NewPlugin plugin) {
                "warning: pbrt itself has a {} \"{}\": yours goes before it, where --plugin-path "
                "leads to yours\n",
                kindName(kind), plugin.name);
+  if (!installed)
+    fmt::print(stderr,
+               "warning: {0} holds no CMake package of pbrt, which the project needs: install pbrt "
+               "first (cmake --install BUILD --prefix PREFIX, or the package pbrt-dev), and add "
+               "-DCMAKE_PREFIX_PATH=PREFIX to the first cmake below\n",
+               prefix.string());
   fmt::print(
       "{0}: {1}.cpp, {1}.pbrt, CMakeLists.txt, README.md. To build and to test it:\n"
       "  cmake -S {0} -B {0}/build && cmake --build {0}/build && ctest --test-dir {0}/build\n",

@@ -1,6 +1,7 @@
 // A unit sphere with one flaw.
 
 #include <array>
+#include <cstdio>
 #include <cstdlib>
 #include <thread>
 
@@ -26,7 +27,9 @@ constexpr std::array kFlaws = std::to_array<std::string_view>(
      "wrong-area", "wrong-pdf", "wrong-density", "uneven-samples", "samples-inside", "no-way",
      "narrow-normals",
      // in making it
-     "crashes", "overflows", "exits", "throws", "hangs", "eats-memory"});
+     "crashes", "overflows", "exits", "throws", "hangs", "eats-memory", "prints",
+     // on the first ray
+     "crashes-later", "throws-later", "hangs-later"});
 
 // Fills the stack.
 int overflow(int depth) {
@@ -48,6 +51,7 @@ class Flawed final : public Shape, public AreaSampler, public SurfaceColor {
     if (is("eats-memory"))
       for (std::vector<std::unique_ptr<char[]>> all;;)
         all.push_back(std::make_unique_for_overwrite<char[]>(1U << 24U));
+    if (is("prints")) std::printf("a word of its own");
   }
 
   Bounds3 bounds(std::uint32_t) const override {
@@ -58,6 +62,10 @@ class Flawed final : public Shape, public AreaSampler, public SurfaceColor {
   }
 
   std::optional<ShapeHit> intersect(const ObjectRay& ray, std::uint32_t) const override {
+    if (is("crashes-later")) std::abort();
+    if (is("throws-later")) throw Error("no such ray");
+    if (is("hangs-later"))
+      for (;;) std::this_thread::sleep_for(std::chrono::seconds(1));
     const double a = lengthSquared(ray.d), b = glm::dot(ray.o, ray.d);
     const double discriminant = a * (r_ * r_ - lengthSquared(ray.o - b / a * ray.d));
     if (!(discriminant >= 0)) return {};
