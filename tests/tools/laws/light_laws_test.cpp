@@ -176,5 +176,55 @@ TEST(LightLaws, JudgeANarrowBeam) {
               HasSubstr("but its samples carry"));
 }
 
+// Lights without a surface that forget toRender, one flaw each.
+enum class Stays { no, point, sun, sky };
+template <Stays kind, Stays flaw>
+class Placed final : public Light {
+ public:
+  Placed(Params&, const Setup& setup) {
+    const Transform place = kind == flaw ? Transform() : setup.toRender;
+    position_ = place.point(DPoint3(0, 0, 1));
+    up_ = glm::normalize(place.vector(DVec3(0, 0, 1)));
+  }
+  double power(double) const override { return 4 * std::numbers::pi; }
+  LightBounds bounds() const override {
+    LightBounds b;
+    if (kind == Stays::point) b.box = {position_, position_};
+    b.intensity = 1;
+    return b;
+  }
+  LightSample sample(const Point3& p, Point2) const override {
+    LightSample s;
+    s.p = position_, s.wi = up_, s.L = Spectrum(1), s.pdf = 1;
+    s.finite = kind == Stays::point;
+    if (s.finite) s.wi = glm::normalize(position_ - p), s.L /= lengthSquared(position_ - p);
+    return s;
+  }
+  bool isDelta() const override { return kind != Stays::sky; }
+  bool isInfinite() const override { return kind == Stays::sky; }
+  Spectrum escaped(const Vec3& w) const override {
+    return kind == Stays::sky ? Spectrum(1 + glm::dot(w, up_)) : Spectrum(0);
+  }
+
+ private:
+  Point3 position_{};
+  Vec3 up_{};
+};
+
+template <Stays kind>
+void expectToMove(std::string_view says) {
+  EXPECT_EQ((finding(own<Light, Placed<kind, Stays::no>>(), "moves-with-its-space")), "");
+  EXPECT_THAT((finding(own<Light, Placed<kind, kind>>(), "moves-with-its-space")),
+              HasSubstr(std::string(says)));
+}
+
+TEST(LightLaws, FindLightsThatStayWhereTheyAre) {
+  expectToMove<Stays::point>("toRender takes the sample");
+  expectToMove<Stays::sun>("toRender takes the sample");
+  expectToMove<Stays::sky>("turned by toRender");
+  EXPECT_THAT(judged(own<Light, Glow<Flaw::none>>(), "moves-with-its-space").skipped(),
+              HasSubstr("a surface"));
+}
+
 }  // namespace
 }  // namespace pbrt::test
