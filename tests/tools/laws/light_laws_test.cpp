@@ -141,18 +141,19 @@ enum class Beam { good, tooWide, met, strong };
 template <Beam kind>
 class Torch final : public Light {
  public:
-  Torch(Params&, const Setup& setup) : position_(setup.toRender.point(DPoint3(0))) {}
+  Torch(Params&, const Setup& setup)
+      : position_(setup.toRender.point(DPoint3(0))),
+        axis_(glm::normalize(setup.toRender.vector(DVec3(0, 0, 1)))) {}
 
   double power(double) const override { return 2 * std::numbers::pi * kHeight; }
   LightBounds bounds() const override {
-    return {
-        {position_, position_}, 1, {{0, 0, 1}, 1 - (kind == Beam::tooWide ? 0.5F : 1) * kHeight}};
+    return {{position_, position_}, 1, {axis_, 1 - (kind == Beam::tooWide ? 0.5F : 1) * kHeight}};
   }
   LightSample sample(const Point3& p, Point2) const override {
     LightSample s;
     const Vec3 w = position_ - p;
     const float d2 = lengthSquared(w);
-    if (!(d2 > 0) || -w.z / std::sqrt(d2) < 1 - kHeight) return s;
+    if (!(d2 > 0) || -glm::dot(w, axis_) / std::sqrt(d2) < 1 - kHeight) return s;
     s.L = Spectrum(1) / (kind == Beam::strong ? std::sqrt(d2) : d2);
     s.wi = w / std::sqrt(d2);
     s.p = position_;
@@ -164,6 +165,7 @@ class Torch final : public Light {
  private:
   static constexpr float kHeight = 1e-4F;
   Point3 position_;
+  Vec3 axis_;
 };
 
 TEST(LightLaws, JudgeANarrowBeam) {
