@@ -16,7 +16,7 @@ struct CameraSample {
 
 struct CameraRay {
   RayDifferential ray;
-  float weight = 1;  // 0: no light takes this way
+  float weight = 1;  // 0: no light takes this way; nobody looks at the ray then
 };
 
 class Camera {

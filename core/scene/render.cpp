@@ -71,8 +71,11 @@ struct TileJob {
         sample.film = inPixel({x, y}, sampler.pixel2D());
         if (lens) sample.lens = sampler.get2D();
         if (world.moves()) sample.time = sampler.get1D();
-        worker.cameraRays[n] = world.camera().generate(sample, world.filters());
-        if (world.filters()) worker.cameraRays[n].ray.scaleDifferentials(differentialScale);
+        CameraRay& camera = worker.cameraRays[n];
+        camera = world.camera().generate(sample, world.filters());
+        // One that meets nothing, for what may be no ray.
+        if (!(camera.weight > 0)) camera.ray = RayDifferential({.d = {0, 0, 1}, .tMax = 0});
+        if (world.filters()) camera.ray.scaleDifferentials(differentialScale);
         worker.rays[n] = &worker.cameraRays[n].ray;
       }
     const auto count = static_cast<std::size_t>(n);

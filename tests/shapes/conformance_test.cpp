@@ -3,6 +3,7 @@
 #include "tests/shapes/conformance.h"
 
 #include "tools/laws/shape_laws.h"
+#include "tools/laws/shape_probe.h"
 
 namespace pbrt {
 namespace {
@@ -46,6 +47,20 @@ std::vector<LawCase> lawCases() {
     }
   }
   return all;
+}
+
+// Those of this project: a law would ask too much of others.
+TEST(Shapes, HaveUvFromZeroToOne) {
+  for (const Case& c : test::cases()) {
+    SCOPED_TRACE(c.shape + " " + c.row.label);
+    laws::ShapeProbe probe(c.subject());
+    if (probe.shape().triangles()) continue;
+    laws::Judge judge;
+    probe.forHits(1000, judge, [&](const ObjectRay&, const laws::Found&, const SurfacePoint& s) {
+      EXPECT_GE(std::min(s.uv.x, s.uv.y), -1e-6F);
+      EXPECT_LE(std::max(s.uv.x, s.uv.y), 1 + 1e-6F);
+    });
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, ShapeLaws, testing::ValuesIn(lawCases()),

@@ -2,6 +2,7 @@
 
 #include "camera_laws.h"
 
+#include "awry.h"
 #include "laws.h"
 #include "show.h"
 #include "steady.h"
@@ -42,12 +43,13 @@ void raysAreWellFormed(const Subject& subject, Judge& judge) {
       const auto [ray, weight] = camera->generate(s, true);
       const std::string at = show(s, place);
       judge.expect(weight >= 0 && std::isfinite(weight), "{}: the weight is {}", at, weight);
+      if (weight == 0) continue;
       judge.expect(isFinite(ray.o), "{}: the ray begins at {}", at, show(ray.o));
       const double length = glm::length(DVec3(ray.d));
       judge.expect(std::abs(length - 1) <= 3e-7, "{}: the direction {} has length {}, not 1", at,
                    show(ray.d), length);
-      judge.expect(weight == 0 || (ray.tMin >= 0 && ray.tMin < ray.tMax),
-                   "{}: the ray goes from t = {} to {}", at, ray.tMin, ray.tMax);
+      judge.expect(ray.tMin >= 0 && ray.tMin < ray.tMax, "{}: the ray goes from t = {} to {}", at,
+                   ray.tMin, ray.tMax);
       const auto [plain, plainWeight] = camera->generate(s, false);
       judge.expect(plain.o == ray.o && plain.d == ray.d && plainWeight == weight,
                    "{}: without differentials the ray is o {} d {} weight {}, with them o {} d {} "
@@ -59,6 +61,29 @@ void raysAreWellFormed(const Subject& subject, Judge& judge) {
       for (const Vec3& v : {ray.rxOrigin, ray.ryOrigin, ray.rxDirection, ray.ryDirection})
         judge.expect(isFinite(v), "{}: a neighbour of the ray begins or goes at {}", at, show(v));
     }
+  }
+}
+
+// A camera that forgets Setup::toRender, or puts it where it does not belong.
+void movesWithItsSpace(const Subject& subject, Judge& judge) {
+  const Place here = places()[0], there{here.resolution, awry()};
+  const auto at = makeCamera(subject, here), moved = makeCamera(subject, there);
+  Rng rng(9);
+  for (int i = 0; i < 500; ++i) {
+    const CameraSample s = randomSample(rng, here.resolution);
+    const auto [ray, weight] = at->generate(s, false);
+    const auto [real, realWeight] = moved->generate(s, false);
+    judge.expect(std::abs(weight - realWeight) <= 1e-4F * weight,
+                 "{}: the weight is {}, but {} where toRender turns and moves the camera",
+                 show(s, here), weight, realWeight);
+    if (weight == 0 || realWeight == 0) continue;
+    const DPoint3 o = there.toRender.point(DPoint3(ray.o));
+    const DVec3 d = there.toRender.vector(DVec3(ray.d));
+    judge.expect(glm::distance(o, DPoint3(real.o)) <= 1e-5 * (1 + glm::length(o)) &&
+                     glm::distance(d, DVec3(real.d)) <= 1e-5,
+                 "{}: toRender takes the ray of the camera in its own space to o {} d {}, but the "
+                 "ray made with it is o {} d {}",
+                 show(s, here), show(Vec3(o)), show(Vec3(d)), show(real.o), show(real.d));
   }
 }
 
@@ -166,9 +191,11 @@ void nonsenseIsAnError(const Subject& subject, Judge& judge) {
                "a parameter that it does not read is not refused");
 }
 
-constexpr std::array<Law, 10> kLaws = {{
+constexpr std::array<Law, 11> kLaws = {{
     {"well-formed-rays", "rays are finite, go in directions of length 1 and weigh nothing negative",
      raysAreWellFormed},
+    {"moves-with-its-space", "toRender takes its rays wherever the camera is put",
+     movesWithItsSpace},
     {"differentials-are-neighbours", "differentials are the rays one pixel to the right and down",
      differentialsAreTheNeighbours},
     {"lens-is-used", "rays depend on the place on the lens only if usesLens() says so", lensIsUsed},

@@ -19,9 +19,11 @@ SurfaceInteraction onDisk(const Point3& p, const Vec3& w) {
 
 }  // namespace
 
-Lamp::Lamp(const Subject& subject)
+Lamp::Lamp(const Subject& subject) : Lamp(subject, placement()) {}
+
+Lamp::Lamp(const Subject& subject, const Transform& toRender)
     : disk_(kDisk),
-      light_(subject.make<Light>({placement(), &disk_, {{-kDisk, -kDisk, 0}, {kDisk, kDisk, 0}}})),
+      light_(subject.make<Light>({toRender, &disk_, {{-kDisk, -kDisk, 0}, {kDisk, kDisk, 0}}})),
       bounds_(light_->bounds()) {
   if (bounds_.box.empty()) return;
   centre_ = bounds_.box.centre();

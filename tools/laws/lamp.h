@@ -14,6 +14,7 @@ namespace pbrt::laws {
 class Lamp {
  public:
   explicit Lamp(const Subject& subject);
+  Lamp(const Subject& subject, const Transform& toRender);
   const Light* operator->() const { return light_.get(); }
 
   // Whether all its light leaves from one point.

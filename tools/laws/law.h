@@ -60,6 +60,8 @@ struct Traits {
   bool independentNumbers = false;
   // Filters: the weight jumps, at the edge for one.
   bool hasSteps = false;
+  // Textures: finite even where the squares of coordinates overflow. A promise more.
+  bool finiteAtAnySize = false;
   float albedo = 1;  // of a material: the largest share of light that its parts may add up to
 };
 

@@ -1,10 +1,12 @@
 // The laws of every light: its samples, its bounds, and what finds it by chance. Those that need
 // an integral are in light_integral_laws.cpp.
 
+#include "awry.h"
 #include "lamp.h"
 #include "laws.h"
 #include "show.h"
 #include "steady.h"
+#include "tally.h"
 
 namespace pbrt::laws {
 namespace {
@@ -117,6 +119,42 @@ void deltaLightsAreNotFound(const Subject& subject, Judge& judge) {
     judge.expect(isBlack(light->escaped(w)), "escaped({}) is {}, not black", show(w),
                  show(light->escaped(w)));
   }
+}
+
+// A light that forgets Setup::toRender, or puts it where it does not belong. Edges of pictures and
+// cones may fall on either side by rounding.
+void movesWithItsSpace(const Subject& subject, Judge& judge) {
+  const Transform T = awry();
+  const Lamp light(subject, {}), moved(subject, T);
+  const bool infinite = light->isInfinite(), far = light->bounds().box.empty();
+  if (!infinite && !(light->isDelta() && (far || light.isPoint())))
+    return judge.skip("it shines from a surface, which the scene has moved");
+  Rng rng(11);
+  Tally tally;
+  const auto near = [](const Spectrum& a, const Spectrum& b) {
+    return glm::length(a - b) <= 0.01F * std::max(glm::length(a), glm::length(b));
+  };
+  for (int i = 0; i < kPlaces; ++i) {
+    if (infinite) {
+      const Vec3 w = uniformSphere({rng.uniform(), rng.uniform()});
+      const Vec3 there = glm::normalize(T.vector(DVec3(w)));
+      const Spectrum L = light->escaped(w), real = moved->escaped(there);
+      tally.expect(near(L, real), "escaped({}) is {}, but turned by toRender to {} it is {}",
+                   show(w), show(L), show(there), show(real));
+      continue;
+    }
+    const Point3 p = light.place(rng), there = T.point(DPoint3(p));
+    const Point2 u{rng.uniform(), rng.uniform()};
+    const LightSample s = light->sample(p, u), real = moved->sample(there, u);
+    const bool lit = s.pdf > 0;
+    const Vec3 wi = T.vector(DVec3(s.wi));
+    tally.expect(
+        lit == (real.pdf > 0) && (!lit || (near(s.L, real.L) && glm::length(wi - real.wi) < 1e-4F)),
+        "toRender takes the sample of p {} to wi {} with L {} (pdf {}), but of the light "
+        "made with it that of p {} is wi {} with L {} (pdf {})",
+        show(p), show(wi), show(s.L), s.pdf, show(there), show(real.wi), show(real.L), real.pdf);
+  }
+  tally.judge(judge, kPlaces / 100);
 }
 
 // Light comes from within the box, and only into directions that the bounds allow.
@@ -243,6 +281,8 @@ std::span<const Law> lightLaws() {
          "whoever meets the light by chance finds the radiance and density of its samples",
          strategiesAgree},
         {"delta-lights-are-not-found", "no ray meets a delta light", deltaLightsAreNotFound},
+        {"moves-with-its-space", "toRender takes its light wherever the light is put",
+         movesWithItsSpace},
         {"bounds-hold", "bounds() holds whatever shines, and where it shines to", boundsHold},
         {"missing-surface-is-said", "an area light refuses to be made without a surface",
          missingSurfaceIsSaid},

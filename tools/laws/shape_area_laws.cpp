@@ -75,7 +75,7 @@ bool near(double estimate, double expected, double variance) {
 void areaIsHowOftenLinesCross(AreaProbe& probe, Judge& judge) {
   Mean crossed;
   const double size = probe.size(), disk = std::numbers::pi * size * size;
-  for (int i = 0; i < 200000; ++i) {
+  for (int i = 0; i < 40 * probe.lines(); ++i) {
     const Frame frame = Frame::fromZ(probe.direction());
     const Point2 d = concentricDisk(probe.uniform2());
     const DVec3 z(frame.z), aside = DVec3(frame.fromLocal({d.x, d.y, 0}));

@@ -6,6 +6,8 @@
 namespace pbrt::laws {
 namespace {
 
+constexpr int kHits = ShapeProbe::kHits;
+
 void boundsHoldTheHits(ShapeProbe& probe, Judge& judge) {
   for (std::uint32_t i = 0; i < probe.shape().primitives(); ++i) {
     const Bounds3 b = probe.shape().bounds(i);
@@ -19,40 +21,37 @@ void boundsHoldTheHits(ShapeProbe& probe, Judge& judge) {
                  probe.shape().primitives(), show(probe.box().lo), show(probe.box().hi));
     return;
   }
-  probe.forHits(
-      ShapeProbe::kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
-        const Bounds3 b = probe.shape().bounds(f.primitive);
-        const double slack = probe.errorOf(s) + 1e-9 * probe.size();
-        double outside = 0;
-        for (int i = 0; i < 3; ++i)
-          outside = std::max({outside, b.lo[i] - s.p[i], s.p[i] - b.hi[i]});
-        judge.expect(outside <= slack,
-                     "the point {} is {:.3g} outside of the bounds {} to {} of its primitive "
-                     "{}: {}",
-                     show(s.p), outside, show(b.lo), show(b.hi), f.primitive, show(r));
-      });
+  probe.forHits(kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
+    const Bounds3 b = probe.shape().bounds(f.primitive);
+    const double slack = probe.errorOf(s) + 1e-9 * probe.size();
+    double outside = 0;
+    for (int i = 0; i < 3; ++i) outside = std::max({outside, b.lo[i] - s.p[i], s.p[i] - b.hi[i]});
+    judge.expect(outside <= slack,
+                 "the point {} is {:.3g} outside of the bounds {} to {} of its primitive "
+                 "{}: {}",
+                 show(s.p), outside, show(b.lo), show(b.hi), f.primitive, show(r));
+  });
 }
 
 void hitsLieOnTheRay(ShapeProbe& probe, Judge& judge) {
-  probe.forHits(
-      ShapeProbe::kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
-        judge.expect(f.hit.primitive == f.primitive,
-                     "a hit on primitive {} names primitive {} (ShapeHit::primitive): {}",
-                     f.primitive, f.hit.primitive, show(r));
-        const DVec3 d = glm::normalize(r.d);
-        const double cosine = std::max(1e-3, std::abs(glm::dot(d, DVec3(s.n))));
-        const double rounding = 0x1p-23 * f.hit.t * glm::length(r.d);  // of t to float
-        const double most = rounding + (probe.errorOf(s) + 1e-9 * probe.size()) / cosine;
-        const double off = glm::length(s.p - r.at(f.hit.t));
-        judge.expect(f.hit.t > 0 && off <= most,
-                     "the hit at t = {} gives the point {}, {:.3g} off the ray's own point there, "
-                     "where its error and rounding explain {:.3g}: {}",
-                     f.hit.t, show(s.p), off, most, show(r));
-      });
+  probe.forHits(kHits, judge, [&](const ObjectRay& r, const Found& f, const SurfacePoint& s) {
+    judge.expect(f.hit.primitive == f.primitive,
+                 "a hit on primitive {} names primitive {} (ShapeHit::primitive): {}", f.primitive,
+                 f.hit.primitive, show(r));
+    const DVec3 d = glm::normalize(r.d);
+    const double cosine = std::max(1e-3, std::abs(glm::dot(d, DVec3(s.n))));
+    const double rounding = 0x1p-23 * f.hit.t * glm::length(r.d);  // of t to float
+    const double most = rounding + (probe.errorOf(s) + 1e-9 * probe.size()) / cosine;
+    const double off = glm::length(s.p - r.at(f.hit.t));
+    judge.expect(f.hit.t > 0 && off <= most,
+                 "the hit at t = {} gives the point {}, {:.3g} off the ray's own point there, "
+                 "where its error and rounding explain {:.3g}: {}",
+                 f.hit.t, show(s.p), off, most, show(r));
+  });
 }
 
 void shadowRaysAgree(ShapeProbe& probe, Judge& judge) {
-  for (int i = 0; i < ShapeProbe::kHits; ++i) {
+  for (int i = 0; i < kHits; ++i) {
     const ObjectRay r = probe.ray();
     probe.primitives(r, [&](std::uint32_t k) {
       const bool occluded = probe.shape().occluded(r, k);
@@ -67,7 +66,7 @@ void shadowRaysAgree(ShapeProbe& probe, Judge& judge) {
 
 void rangeOfTIsKept(ShapeProbe& probe, Judge& judge) {
   const Shape& shape = probe.shape();
-  for (int i = 0; i < ShapeProbe::kHits; ++i) {
+  for (int i = 0; i < kHits; ++i) {
     const ObjectRay r = probe.ray();
     probe.primitives(r, [&](std::uint32_t k) {
       const auto hit = shape.intersect(r, k);
@@ -106,9 +105,9 @@ void rangeOfTIsKept(ShapeProbe& probe, Judge& judge) {
 void linesAreTheSameBackwards(ShapeProbe& probe, Judge& judge) {
   if (probe.traits().facingWidth > 0) return judge.skip("it turns towards every ray");
   Tally tally;
-  for (int i = 0; i < ShapeProbe::kHits; ++i) {
+  for (int i = 0; i < probe.lines(); ++i) {
     const DVec3 d = probe.direction();
-    const ObjectRay there{probe.inBox() - 3 * probe.size() * d, d};
+    const ObjectRay there{probe.inPrimitive() - 3 * probe.size() * d, d};
     const ObjectRay back{there.at(6 * probe.size()), -d};
     int forwards = 0, backwards = 0;
     probe.crossings(there, [&](const SurfacePoint&) { ++forwards; });
@@ -116,17 +115,17 @@ void linesAreTheSameBackwards(ShapeProbe& probe, Judge& judge) {
     tally.expect(forwards == backwards, "{} crossings there, but {} back: {}", forwards, backwards,
                  show(there));
   }
-  tally.judge(judge, tally.tried() / 1000);
+  tally.judge(judge, kHits / 1000);
 }
 
 // Along an axis or in a plane of the coordinates, short and long, from near and from 1e6 sizes
 // away, also from the surface itself: what is hit lies on the ray, and nothing is not a number.
 void oddRaysAreMetAsWell(ShapeProbe& probe, Judge& judge) {
   const double size = probe.size();
-  for (int i = 0; i < 4 * ShapeProbe::kHits; ++i) {
+  for (int i = 0; i < 4 * kHits; ++i) {
     DVec3 d = probe.direction();
     for (int k = 0; k <= i % 2; ++k) d[(i + k) % 3] = i % 4 < 2 ? 0.0 : -0.0;
-    DPoint3 to = probe.inBox();
+    DPoint3 to = probe.inPrimitive();
     if (i % 3 == 0) to[i % 3] = probe.centre()[i % 3];  // often the plane of symmetry
     const double distance = i % 5 ? 3 : 1e6;
     const double scale = i % 7 ? 0.5 + probe.uniform() : std::pow(10, 12 * probe.uniform() - 6);

@@ -39,9 +39,22 @@ DPoint3 ShapeProbe::inBox() {
   return DPoint3(box_.lo) + DVec3(x, y, z) * (DVec3(box_.hi) - DVec3(box_.lo));
 }
 
+DPoint3 ShapeProbe::inPrimitive() {
+  if (box_.empty()) return inBox();
+  const auto below = [&](std::size_t n) {
+    return std::min(n - 1, static_cast<std::size_t>(uniform() * static_cast<double>(n)));
+  };
+  const Group& group = groups_[below(groups_.size())];
+  Bounds3 b;
+  while (b.empty())  // no group of many, nor all of a few, is empty
+    b = shape_->bounds(group.begin + static_cast<std::uint32_t>(below(group.end - group.begin)));
+  const double x = uniform(), y = uniform(), z = uniform();
+  return DPoint3(b.lo) + DVec3(x, y, z) * (DVec3(b.hi) - DVec3(b.lo));
+}
+
 ObjectRay ShapeProbe::ray() {
   const DPoint3 o = uniform() < 0.8F ? around(1.01 + 4 * uniform()) : inBox();
-  return {o, (inBox() - o) * (0.2 + 2 * uniform())};
+  return {o, (inPrimitive() - o) * (0.2 + 2 * uniform())};
 }
 
 std::optional<Found> ShapeProbe::nearest(const ObjectRay& ray) const {

@@ -6,6 +6,7 @@
 #include "core/base/warp.h"
 #include "law.h"
 #include "show.h"
+#include "tally.h"
 
 namespace pbrt::laws {
 
@@ -21,26 +22,6 @@ inline std::string show(const ObjectRay& r) {
 struct Found {
   ShapeHit hit;
   std::uint32_t primitive = 0;
-};
-
-// What may go wrong now and then, by rounding at an edge.
-class Tally {
- public:
-  template <class... Args>
-  void expect(bool ok, fmt::format_string<Args...> what, Args&&... args) {
-    ++tried_;
-    if (ok) return;
-    if (wrong_++ == 0) example_ = fmt::format(what, std::forward<Args>(args)...);
-  }
-  int tried() const { return tried_; }
-  void judge(Judge& judge, int allowed) const {
-    judge.expect(wrong_ <= allowed, "{} of {} trials fail, and at most {} may; the first: {}",
-                 wrong_, tried_, allowed, example_);
-  }
-
- private:
-  int tried_ = 0, wrong_ = 0;
-  std::string example_;
 };
 
 class ShapeProbe {
@@ -64,6 +45,16 @@ class ShapeProbe {
   DVec3 direction() { return uniformSphere(uniform2()); }
   DPoint3 around(double radii) { return centre_ + radii * size_ * direction(); }
   DPoint3 inBox();
+  // In the box of any primitive: where primitives are sparse, most of the whole box is empty.
+  DPoint3 inPrimitive();
+  // Half the diagonal of the primitive's box.
+  double sizeOf(std::uint32_t primitive) const {
+    return glm::length(DVec3(shape_->bounds(primitive).diagonal())) / 2;
+  }
+  // How many lines to follow through all of it: each may meet many primitives.
+  int lines() const {
+    return std::clamp(static_cast<int>(2'000'000 / shape_->primitives()), kHits / 20, kHits);
+  }
   // One that is likely to hit: from outside, sometimes from within.
   ObjectRay ray();
 
@@ -103,8 +94,8 @@ class ShapeProbe {
       visit(r, *found, shape_->surface(r, found->hit));
     }
     judge.expect(hits == count,
-                 "the shape is hardly ever hit within its bounds: {} times by {} "
-                 "rays at points of the box about {}, of half the diagonal {}",
+                 "the shape is hardly ever hit within its bounds: {} times by {} rays at points of "
+                 "the boxes of its primitives, all about {}, of half the diagonal {}",
                  hits, 100 * count, show(centre_), size_);
   }
 

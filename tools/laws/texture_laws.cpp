@@ -70,13 +70,15 @@ void forBothKinds(const Subject& subject, Check check) {
 void finiteEverywhere(const Subject& subject, Judge& judge) {
   forBothKinds(subject, [&]<class T>(const Texture<T>& texture) {
     Rng rng(1);
-    for (const float size : {0.F, 1e-20F, 1.F, 1e4F, 1e9F, 1e18F, 1e30F, 1e38F})
+    for (const float size : {0.F, 1e-20F, 1.F, 1e4F, 1e9F, 1e18F, 1e30F, 1e38F}) {
+      if (size > 1e18F && !subject.traits.finiteAtAnySize) break;
       for (int i = 0; i < 200; ++i) {
         const SurfaceInteraction at = somewhere(rng, size);
         const T value = texture.evaluate(at);
         judge.expect(isFinite(value), "the {} texture has the value {} at {}", kKind<T>,
                      show(value), place(at));
       }
+    }
   });
 }
 

@@ -2,10 +2,12 @@
 
 #include "volume_laws.h"
 
+#include "awry.h"
 #include "core/api/medium_walk.h"
 #include "laws.h"
 #include "show.h"
 #include "steady.h"
+#include "tally.h"
 
 namespace pbrt::laws {
 namespace {
@@ -62,6 +64,29 @@ void isWellFormedInItsBox(const Subject& subject, Judge& judge) {
                some);
 }
 
+// A medium that forgets Setup::toRender, or puts it where it does not belong. Edges may fall on
+// either side by rounding.
+void movesWithItsSpace(const Subject& subject, Judge& judge) {
+  const PlacedMedium at(subject, {}), moved(subject, awry());
+  Rng rng(3);
+  Tally tally;
+  const auto near = [](const Spectrum& a, const Spectrum& b) {
+    return glm::length(a - b) <= 1e-3F * std::max(glm::length(a), glm::length(b));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const DPoint3 p = at.point(1.2 * DPoint3(rng.uniform(), rng.uniform(), rng.uniform()) - 0.1);
+    const DPoint3 there = moved.place.point(p);
+    const MediumPoint m = at.medium->at(p), real = moved.medium->at(there);
+    tally.expect(near(m.absorption, real.absorption) && near(m.scattering, real.scattering) &&
+                     near(m.emission, real.emission),
+                 "at {} the extinction is {} and the emission {}, but where toRender takes this to "
+                 "{} they are {} and {}",
+                 show(Vec3(p)), show(m.extinction()), show(m.emission), show(Vec3(there)),
+                 show(real.extinction()), show(real.emission));
+  }
+  tally.judge(judge, tally.tried() / 100);
+}
+
 // The steps of a walk along one way.
 void stretchesHold(const PlacedMedium& placed, const Way& way, Rng& rng, Judge& judge,
                    int& stretches) {
@@ -115,9 +140,11 @@ void cellsBoundTheMedium(const Subject& subject, Judge& judge) {
   judge.expect(stretches > 200, "500 ways through its box meet only {} stretches", stretches);
 }
 
-constexpr std::array<Law, 4> kLaws = {{
+constexpr std::array<Law, 5> kLaws = {{
     {"well-formed", "coefficients are finite and not negative, and nothing is outside of the box",
      isWellFormedInItsBox},
+    {"moves-with-its-space", "toRender takes what is in it wherever the volume is put",
+     movesWithItsSpace},
     {"cells-bound-the-medium", "nowhere is the extinction above the majorant of the cell",
      cellsBoundTheMedium},
     {"estimates-agree-with-quadrature",

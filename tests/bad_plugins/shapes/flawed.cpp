@@ -19,8 +19,9 @@ constexpr std::array kFlaws = std::to_array<std::string_view>(
      "tight-bounds", "infinite-bounds", "nowhere", "late-hits", "other-primitive", "loses-hits",
      "no-shadow", "behind", "beyond", "not-a-number",
      // of surface()
-     "off-the-surface", "no-error", "huge-error", "long-normal", "turned-normal", "wild-uv",
-     "no-derivatives", "wrong-curvature", "inward-shading", "sinks",
+     "off-the-surface", "no-error", "huge-error", "long-normal", "turned-normal", "inside-out",
+     "wild-uv", "tiled-uv", "no-uv", "half-derivatives", "wrong-curvature", "inward-shading",
+     "sinks",
      // as an object
      "shared", "counts", "differs", "allocates", "dark-colour",
      // of its area
@@ -112,8 +113,11 @@ class Flawed final : public Shape, public AreaSampler, public SurfaceColor {
     if (is("huge-error")) s.error = 1;
     if (is("long-normal")) s.n *= 1.1F;
     if (is("turned-normal") && glm::dot(ray.d, n) > 0) s.n = -s.n;
-    if (is("wild-uv")) s.uv *= 2.F;
-    if (is("no-derivatives")) s.dpdu = s.dpdv = Vec3(0);
+    if (is("inside-out")) s.n = -s.n, s.dndu = -s.dndu, s.dndv = -s.dndv;
+    if (is("wild-uv")) s.uv.x = std::nanf("");
+    if (is("tiled-uv")) s.uv *= 2.F, s.dpdu /= 2, s.dpdv /= 2, s.dndu /= 2, s.dndv /= 2;
+    if (is("no-uv")) s.uv = Point2(0), s.dpdu = s.dpdv = s.dndu = s.dndv = Vec3(0);
+    if (is("half-derivatives")) s.dpdv = Vec3(0);
     if (is("wrong-curvature")) s.dndv = -s.dndv;
     if (is("inward-shading")) s.ns = -s.n;
     if (is("sinks")) s.error = 0, s.p -= 1e-10 * n;

@@ -14,6 +14,8 @@ enum Kind {
   kLong,
   kNoNumber,
   kNegative,
+  kSeesACircle,
+  kStays,
   kAlwaysDifferential,
   kFarNeighbours,
   kSecretLens,
@@ -33,7 +35,8 @@ template <Kind kind>
 class Parallel final : public ProjectiveCamera {
  public:
   Parallel(Params& p, const Setup& setup)
-      : ProjectiveCamera(p, setup), resolution_(setup.resolution) {
+      : ProjectiveCamera(p, kind == kStays ? Setup{{}, setup.resolution} : setup),
+        resolution_(setup.resolution) {
     static float objects = 0;
     if (kind == kCountsObjects) shift_ = ++objects;
   }
@@ -63,6 +66,8 @@ class Parallel final : public ProjectiveCamera {
     if (kind == kNegative) result.weight = sample.lens.x - 0.5F;
     if (kind == kSecretLens) ray.o.x += sample.lens.x;
     if (kind == kNoShutter) ray.time = sample.time;
+    if (kind == kSeesACircle && glm::length(film) > 20)
+      return {RayDifferential(), 0};  // nobody asks what ray it would be
     if (kind == kNoClip) ray.tMin = 0, ray.tMax = kInfinity;
     if (kind == kCountsCalls) ray.time += static_cast<float>(++calls_ % 7);
     if (kind == kAllocates) ::operator delete(::operator new(16));
@@ -104,6 +109,8 @@ const PluginInfo* plugin() {
 
 TEST(CameraLaws, AreObeyedByParallelRays) {
   expectGood({plugin<kGood>()});
+  EXPECT_EQ(judged({plugin<kSeesACircle>()}, "well-formed-rays").failures(), 0U);
+  EXPECT_EQ(judged({plugin<kSeesACircle>()}, "moves-with-its-space").failures(), 0U);
 }
 
 TEST(CameraLaws, FindEveryFlaw) {
@@ -115,6 +122,7 @@ TEST(CameraLaws, FindEveryFlaw) {
           {plugin<kNegative>(), "well-formed-rays", "the weight is -0."},
           {plugin<kAlwaysDifferential>(), "well-formed-rays", "nobody asked for"},
           {plugin<kFarNeighbours>(), "differentials-are-neighbours", "the neighbour in x"},
+          {plugin<kStays>(), "moves-with-its-space", "toRender takes the ray"},
           {plugin<kSecretLens>(), "lens-is-used", "usesLens() is false"},
           {plugin<kNoShutter>(), "shutter-gives-the-time", "not 3"},
           {plugin<kUpsideDown>(), "matrix", "screenFromCamera() puts"},

@@ -141,18 +141,19 @@ enum class Beam { good, tooWide, met, strong };
 template <Beam kind>
 class Torch final : public Light {
  public:
-  Torch(Params&, const Setup& setup) : position_(setup.toRender.point(DPoint3(0))) {}
+  Torch(Params&, const Setup& setup)
+      : position_(setup.toRender.point(DPoint3(0))),
+        axis_(glm::normalize(setup.toRender.vector(DVec3(0, 0, 1)))) {}
 
   double power(double) const override { return 2 * std::numbers::pi * kHeight; }
   LightBounds bounds() const override {
-    return {
-        {position_, position_}, 1, {{0, 0, 1}, 1 - (kind == Beam::tooWide ? 0.5F : 1) * kHeight}};
+    return {{position_, position_}, 1, {axis_, 1 - (kind == Beam::tooWide ? 0.5F : 1) * kHeight}};
   }
   LightSample sample(const Point3& p, Point2) const override {
     LightSample s;
     const Vec3 w = position_ - p;
     const float d2 = lengthSquared(w);
-    if (!(d2 > 0) || -w.z / std::sqrt(d2) < 1 - kHeight) return s;
+    if (!(d2 > 0) || -glm::dot(w, axis_) / std::sqrt(d2) < 1 - kHeight) return s;
     s.L = Spectrum(1) / (kind == Beam::strong ? std::sqrt(d2) : d2);
     s.wi = w / std::sqrt(d2);
     s.p = position_;
@@ -164,6 +165,7 @@ class Torch final : public Light {
  private:
   static constexpr float kHeight = 1e-4F;
   Point3 position_;
+  Vec3 axis_;
 };
 
 TEST(LightLaws, JudgeANarrowBeam) {
@@ -174,6 +176,56 @@ TEST(LightLaws, JudgeANarrowBeam) {
               HasSubstr("is true"));
   EXPECT_THAT(finding(own<Light, Torch<Beam::strong>>(), "power-is-the-integral-of-emission"),
               HasSubstr("but its samples carry"));
+}
+
+// Lights without a surface that forget toRender, one flaw each.
+enum class Stays { no, point, sun, sky };
+template <Stays kind, Stays flaw>
+class Placed final : public Light {
+ public:
+  Placed(Params&, const Setup& setup) {
+    const Transform place = kind == flaw ? Transform() : setup.toRender;
+    position_ = place.point(DPoint3(0, 0, 1));
+    up_ = glm::normalize(place.vector(DVec3(0, 0, 1)));
+  }
+  double power(double) const override { return 4 * std::numbers::pi; }
+  LightBounds bounds() const override {
+    LightBounds b;
+    if (kind == Stays::point) b.box = {position_, position_};
+    b.intensity = 1;
+    return b;
+  }
+  LightSample sample(const Point3& p, Point2) const override {
+    LightSample s;
+    s.p = position_, s.wi = up_, s.L = Spectrum(1), s.pdf = 1;
+    s.finite = kind == Stays::point;
+    if (s.finite) s.wi = glm::normalize(position_ - p), s.L /= lengthSquared(position_ - p);
+    return s;
+  }
+  bool isDelta() const override { return kind != Stays::sky; }
+  bool isInfinite() const override { return kind == Stays::sky; }
+  Spectrum escaped(const Vec3& w) const override {
+    return kind == Stays::sky ? Spectrum(1 + glm::dot(w, up_)) : Spectrum(0);
+  }
+
+ private:
+  Point3 position_{};
+  Vec3 up_{};
+};
+
+template <Stays kind>
+void expectToMove(std::string_view says) {
+  EXPECT_EQ((finding(own<Light, Placed<kind, Stays::no>>(), "moves-with-its-space")), "");
+  EXPECT_THAT((finding(own<Light, Placed<kind, kind>>(), "moves-with-its-space")),
+              HasSubstr(std::string(says)));
+}
+
+TEST(LightLaws, FindLightsThatStayWhereTheyAre) {
+  expectToMove<Stays::point>("toRender takes the sample");
+  expectToMove<Stays::sun>("toRender takes the sample");
+  expectToMove<Stays::sky>("turned by toRender");
+  EXPECT_THAT(judged(own<Light, Glow<Flaw::none>>(), "moves-with-its-space").skipped(),
+              HasSubstr("a surface"));
 }
 
 }  // namespace

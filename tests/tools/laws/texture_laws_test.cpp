@@ -5,7 +5,18 @@
 namespace pbrt::test {
 namespace {
 
-enum class Flaw { none, infinite, footprint, silent, unsafe, memory, twins, allocation, noKind };
+enum class Flaw {
+  none,
+  infinite,
+  overflow,
+  footprint,
+  silent,
+  unsafe,
+  memory,
+  twins,
+  allocation,
+  noKind
+};
 
 Shared made;
 
@@ -22,6 +33,7 @@ struct Of {
     T evaluate(const SurfaceInteraction& at) const override {
       float u = glm::clamp(at.uv.x, -10.F, 10.F) + shift_;
       if constexpr (flaw == Flaw::infinite) u = 1 / at.uv.x;
+      if constexpr (flaw == Flaw::overflow) u = std::sin(lengthSquared(at.p));
       if constexpr (flaw == Flaw::footprint) u += at.dudx;
       if constexpr (flaw == Flaw::unsafe) u = shared_.through(u);
       if constexpr (flaw == Flaw::memory) u += shared_.next();
@@ -52,6 +64,13 @@ using testing::HasSubstr;
 
 TEST(TextureLaws, FindNothingInAGoodTexture) {
   expectAllHold(ramp<Flaw::none>());
+}
+
+// Squares overflow in most formulas; those who promise more are held to it.
+TEST(TextureLaws, GoToNoSizeWhoseSquareOverflows) {
+  const PluginInfo& rings = ramp<Flaw::overflow>();
+  EXPECT_EQ(judged(rings, "finite-everywhere").failures(), 0U);
+  EXPECT_GT(judged(rings, "finite-everywhere", {.finiteAtAnySize = true}).failures(), 0U);
 }
 
 TEST(TextureLaws, FindWrongTextures) {

@@ -11,6 +11,7 @@ enum Kind {
   kGood,
   kNegative,
   kTurnsBack,
+  kStays,
   kDense,
   kNotUniform,
   kGlowsInNothing,
@@ -24,7 +25,8 @@ template <Kind kind>
 class Smoke final : public Medium {
  public:
   Smoke(Params& p, const Setup& setup)
-      : Medium(setup, kind == kTurnsBack ? -1.5F : 0.3F, DPoint3(-1), DPoint3(1, 2, 1)) {
+      : Medium(kind == kStays ? Setup{} : setup, kind == kTurnsBack ? -1.5F : 0.3F, DPoint3(-1),
+               DPoint3(1, 2, 1)) {
     const float scale = p.positive("scale", 1, "of the density");
     static float objects = 0;
     sigma_ = Spectrum(1, 0.5F, 2) * scale;
@@ -64,6 +66,7 @@ TEST(VolumeLaws, FindEveryFlaw) {
               {
                   {plugin<kNegative>(), "well-formed", "its absorption is (-"},
                   {plugin<kTurnsBack>(), "well-formed", "g() is -1.5"},
+                  {plugin<kStays>(), "moves-with-its-space", "where toRender takes this"},
                   {plugin<kDense>(), "cells-bound-the-medium", "more than the majorant"},
                   {plugin<kNotUniform>(), "cells-bound-the-medium", "says it is uniform"},
                   {plugin<kGlowsInNothing>(), "cells-bound-the-medium", "says that it is empty"},
