@@ -134,6 +134,40 @@ TEST(Render, ASkyThatShinesIsNoHole) {
   EXPECT_EQ(alpha("LightSource \"point\""), 0);
 }
 
+// A camera may give no ray at all where it sees nothing (weight 0): nobody traces what it gives.
+TEST(Render, TracesNoRayOfWeightZero) {
+  class Blind final : public Camera {
+    CameraRay generate(const CameraSample&, bool) const override {
+      const Vec3 nan(std::nanf(""));
+      return {RayDifferential({.o = nan, .d = nan}), 0};
+    }
+  };
+  class Watched final : public World {
+   public:
+    Watched() { camera_ = &blind_; }
+    Hit intersect(const Ray&) const override { return {}; }
+    bool occluded(const Ray&) const override { return false; }
+    void intersect(std::span<const Ray* const> rays, std::span<Hit>) const override {
+      for (const Ray* ray : rays) {
+        EXPECT_TRUE(isFinite(ray->o) && isFinite(ray->d) && ray->d != Vec3(0));
+        EXPECT_FALSE(ray->tMax > ray->tMin);
+      }
+    }
+    std::uint32_t occluded(std::span<const Ray>) const override { return 0; }
+    SurfaceInteraction surface(const RayDifferential&, const Hit&) const override { return {}; }
+    Bsdf bsdf(SurfaceInteraction&, Scratch&) const override { throw Error("nothing was hit"); }
+
+   private:
+    Blind blind_;
+  };
+  const auto scene = test::buildText(
+      "Film \"image\" \"integer xresolution\" 10 \"integer yresolution\" 10\n"
+      "Integrator \"whitted\" WorldBegin WorldEnd");
+  RenderControl control;
+  control.threads = 1;
+  scene->integrator().render(Watched(), scene->sampler(), scene->film(), control);
+}
+
 TEST(Render, StopsWhenToldTo) {
   const auto scene = test::buildText(everything("random", "whitted"));
   RenderControl control;

@@ -112,7 +112,7 @@ TEST(ShapeLaws, LetTheGoodOnePass) {
   }
 }
 
-// Laws that a shape may be right without: uv beyond 1, or none at all.
+// uv may lie beyond 1, or be missing with its derivatives.
 TEST(ShapeLaws, LetAnyUvPass) {
   for (const char* uv : {"tiled-uv", "no-uv"})
     for (const Law& law : laws::shapeSurfaceLaws()) {
