@@ -20,7 +20,8 @@ TEST(NamedSpectra, AreThoseOfPbrt4) {
   };
   for (const std::string metal : {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"})
     for (const std::string part : {"-eta", "-k"}) isThere("metal-" + metal + part);
-  for (const std::string glass : {"BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11", "SF5", "SF10", "SF11"})
+  for (const std::string glass :
+       {"BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11", "SF5", "SF10", "SF11"})
     isThere("glass-" + glass);
   for (const std::string lamp : {"A", "D50", "D65"}) isThere("stdillum-" + lamp);
   for (int i = 1; i <= 12; ++i) isThere("stdillum-F" + std::to_string(i));
