@@ -104,7 +104,7 @@ class Careless final : public Camera {
 
 template <Kind kind>
 const PluginInfo* plugin() {
-  return pluginOf<Camera, Parallel<kind>>();
+  return &own<Camera, Parallel<kind>>();
 }
 
 TEST(CameraLaws, AreObeyedByParallelRays) {
@@ -114,29 +114,28 @@ TEST(CameraLaws, AreObeyedByParallelRays) {
 }
 
 TEST(CameraLaws, FindEveryFlaw) {
-  expectFound(
-      PluginKind::camera,
-      {
-          {plugin<kLong>(), "well-formed-rays", "has length 1.00999"},
-          {plugin<kNoNumber>(), "well-formed-rays", "begins at (nan"},
-          {plugin<kNegative>(), "well-formed-rays", "the weight is -0."},
-          {plugin<kAlwaysDifferential>(), "well-formed-rays", "nobody asked for"},
-          {plugin<kFarNeighbours>(), "differentials-are-neighbours", "the neighbour in x"},
-          {plugin<kStays>(), "moves-with-its-space", "toRender takes the ray"},
-          {plugin<kSecretLens>(), "lens-is-used", "usesLens() is false"},
-          {plugin<kNoShutter>(), "shutter-gives-the-time", "not 3"},
-          {plugin<kUpsideDown>(), "matrix", "screenFromCamera() puts"},
-          {plugin<kBackwards>(), "matrix", "backwards"},
-          {plugin<kBlurred>(), "lens-focuses", "crosses the focal plane"},
-          {plugin<kBlurred>(), "extreme-lenses-focus", "the focus is along"},
-          {plugin<kNoClip>(), "clips-by-depth", "to inf"},
-          {plugin<kNoWindow>(), "screen-window", "screenwindow -0.5 2 0.25 1"},
-          {pluginOf<Camera, Careless>(), "refuses-nonsense", "lensradius -1 is not refused"},
-          {plugin<kCountsCalls>(), "repeatable", "asked again"},
-          {plugin<kCountsObjects>(), "twins", "another object"},
-          {plugin<kCountsCalls>(), "thread-safe", "other threads"},
-          {plugin<kAllocates>(), "allocates-nothing", "operator new"},
-      });
+  expectFound(PluginKind::camera,
+              {
+                  {plugin<kLong>(), "well-formed-rays", "has length 1.00999"},
+                  {plugin<kNoNumber>(), "well-formed-rays", "begins at (nan"},
+                  {plugin<kNegative>(), "well-formed-rays", "the weight is -0."},
+                  {plugin<kAlwaysDifferential>(), "well-formed-rays", "nobody asked for"},
+                  {plugin<kFarNeighbours>(), "differentials-are-neighbours", "the neighbour in x"},
+                  {plugin<kStays>(), "moves-with-its-space", "toRender takes the ray"},
+                  {plugin<kSecretLens>(), "lens-is-used", "usesLens() is false"},
+                  {plugin<kNoShutter>(), "shutter-gives-the-time", "not 3"},
+                  {plugin<kUpsideDown>(), "matrix", "screenFromCamera() puts"},
+                  {plugin<kBackwards>(), "matrix", "backwards"},
+                  {plugin<kBlurred>(), "lens-focuses", "crosses the focal plane"},
+                  {plugin<kBlurred>(), "extreme-lenses-focus", "the focus is along"},
+                  {plugin<kNoClip>(), "clips-by-depth", "to inf"},
+                  {plugin<kNoWindow>(), "screen-window", "screenwindow -0.5 2 0.25 1"},
+                  {&own<Camera, Careless>(), "refuses-nonsense", "lensradius -1 is not refused"},
+                  {plugin<kCountsCalls>(), "repeatable", "asked again"},
+                  {plugin<kCountsObjects>(), "twins", "another object"},
+                  {plugin<kCountsCalls>(), "thread-safe", "other threads"},
+                  {plugin<kAllocates>(), "allocates-nothing", "operator new"},
+              });
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ class Cone final : public Filter {
 
 template <Kind kind>
 const PluginInfo* plugin() {
-  return pluginOf<Filter, Cone<kind>>();
+  return &own<Filter, Cone<kind>>();
 }
 
 TEST(FilterLaws, AreObeyedByACone) {

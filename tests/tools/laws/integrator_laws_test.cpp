@@ -96,14 +96,14 @@ class Brightening final : public VolumeIntegrator {
 template <Kind kind>
 const PluginInfo* plugin() {
   if constexpr (kind >= kCountsThreads)
-    return pluginOf<Integrator, Noise<kind>>();
+    return &own<Integrator, Noise<kind>>();
   else
-    return pluginOf<Integrator, Facing<kind>>();
+    return &own<Integrator, Facing<kind>>();
 }
 
 TEST(IntegratorLaws, AreObeyedByGoodOnes) {
-  expectGood({pluginOf<Integrator, Facing<kGood>>()});
-  expectGood({pluginOf<Integrator, Noise<kGood>>()});
+  expectGood({&own<Integrator, Facing<kGood>>()});
+  expectGood({&own<Integrator, Noise<kGood>>()});
 }
 
 TEST(IntegratorLaws, FindEveryFlaw) {
@@ -121,7 +121,7 @@ TEST(IntegratorLaws, FindEveryFlaw) {
                   {plugin<kIgnoresSeed>(), "seeds-agree", "the same in every scene"},
                   {plugin<kOneNumberForAll>(), "seeds-agree", "of seeds 0 and 1 differ by"},
                   {plugin<kAllocates>(), "allocates-nothing", "0.50 times a sample"},
-                  {pluginOf<Integrator, Brightening>(), "transmittance-is-a-share", "is (1.5"},
+                  {&own<Integrator, Brightening>(), "transmittance-is-a-share", "is (1.5"},
               });
 }
 

@@ -1,7 +1,7 @@
 // The laws of lights find wrong lights, and nothing in a right one.
 
 #include "core/base/warp.h"
-#include "tests/tools/laws/wrong.h"
+#include "tests/tools/laws/flawed.h"
 
 namespace pbrt::test {
 namespace {
@@ -91,13 +91,13 @@ class Glow final : public Light {
 
 template <Flaw flaw>
 std::string found(std::string_view law) {
-  return finding(own<Light, Glow<flaw>>(), law);
+  return finding({&own<Light, Glow<flaw>>()}, law);
 }
 
 using testing::HasSubstr;
 
 TEST(LightLaws, FindNothingInAGoodLight) {
-  expectAllHold(own<Light, Glow<Flaw::none>>());
+  expectGood({&own<Light, Glow<Flaw::none>>()});
 }
 
 TEST(LightLaws, FindWrongSamples) {
@@ -169,12 +169,12 @@ class Torch final : public Light {
 };
 
 TEST(LightLaws, JudgeANarrowBeam) {
-  expectAllHold(own<Light, Torch<Beam::good>>());
-  EXPECT_THAT(finding(own<Light, Torch<Beam::tooWide>>(), "bounds-hold"),
+  expectGood({&own<Light, Torch<Beam::good>>()});
+  EXPECT_THAT(finding({&own<Light, Torch<Beam::tooWide>>()}, "bounds-hold"),
               HasSubstr("is lit along"));
-  EXPECT_THAT(finding(own<Light, Torch<Beam::met>>(), "delta-lights-are-not-found"),
+  EXPECT_THAT(finding({&own<Light, Torch<Beam::met>>()}, "delta-lights-are-not-found"),
               HasSubstr("is true"));
-  EXPECT_THAT(finding(own<Light, Torch<Beam::strong>>(), "power-is-the-integral-of-emission"),
+  EXPECT_THAT(finding({&own<Light, Torch<Beam::strong>>()}, "power-is-the-integral-of-emission"),
               HasSubstr("but its samples carry"));
 }
 
@@ -215,8 +215,8 @@ class Placed final : public Light {
 
 template <Stays kind>
 void expectToMove(std::string_view says) {
-  EXPECT_EQ((finding(own<Light, Placed<kind, Stays::no>>(), "moves-with-its-space")), "");
-  EXPECT_THAT((finding(own<Light, Placed<kind, kind>>(), "moves-with-its-space")),
+  EXPECT_EQ((finding({&own<Light, Placed<kind, Stays::no>>()}, "moves-with-its-space")), "");
+  EXPECT_THAT((finding({&own<Light, Placed<kind, kind>>()}, "moves-with-its-space")),
               HasSubstr(std::string(says)));
 }
 
@@ -224,7 +224,7 @@ TEST(LightLaws, FindLightsThatStayWhereTheyAre) {
   expectToMove<Stays::point>("toRender takes the sample");
   expectToMove<Stays::sun>("toRender takes the sample");
   expectToMove<Stays::sky>("turned by toRender");
-  EXPECT_THAT(judged(own<Light, Glow<Flaw::none>>(), "moves-with-its-space").skipped(),
+  EXPECT_THAT(judged({&own<Light, Glow<Flaw::none>>()}, "moves-with-its-space").skipped(),
               HasSubstr("a surface"));
 }
 

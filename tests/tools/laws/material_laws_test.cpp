@@ -1,7 +1,7 @@
 // The laws of materials find wrong materials, and nothing in a right one.
 
 #include "core/base/warp.h"
-#include "tests/tools/laws/wrong.h"
+#include "tests/tools/laws/flawed.h"
 
 namespace pbrt::test {
 namespace {
@@ -85,21 +85,21 @@ class Wall final : public Material {
 
 template <Flaw flaw>
 std::string found(std::string_view law) {
-  return finding(own<Material, Wall<flaw>>(), law);
+  return finding({&own<Material, Wall<flaw>>()}, law);
 }
 
 using testing::HasSubstr;
 
 TEST(MaterialLaws, FindNothingInAGoodMaterial) {
-  expectAllHold(own<Material, Wall<Flaw::none>>());
+  expectGood({&own<Material, Wall<Flaw::none>>()});
 }
 
 TEST(MaterialLaws, FindWrongValues) {
   EXPECT_THAT(found<Flaw::oneWay>("reflection-is-reciprocal"), HasSubstr("the other way round"));
   EXPECT_THAT(found<Flaw::energy>("no-energy-is-made"), HasSubstr("it scatters 1.05"));
-  EXPECT_EQ(
-      judged(own<Material, Wall<Flaw::energy>>(), "no-energy-is-made", {.albedo = 2}).failures(),
-      0U);
+  EXPECT_EQ(judged({&own<Material, Wall<Flaw::energy>>(), {}, {.albedo = 2}}, "no-energy-is-made")
+                .failures(),
+            0U);
   EXPECT_THAT(found<Flaw::nan>("extremes-are-finite"), HasSubstr("is (nan, nan, nan)"));
   EXPECT_THAT(found<Flaw::texture>("textures-may-have-any-value"),
               HasSubstr("with a texture \"Kd\" of -1 "));

@@ -81,7 +81,7 @@ class Numbers final : public Sampler {
 
 template <Kind kind>
 const PluginInfo* plugin() {
-  return pluginOf<Sampler, Numbers<kind>>();
+  return &own<Sampler, Numbers<kind>>();
 }
 
 TEST(SamplerLaws, AreObeyedByIndependentNumbers) {

@@ -1,6 +1,6 @@
 // The laws of textures find wrong textures, and nothing in a right one.
 
-#include "tests/tools/laws/wrong.h"
+#include "tests/tools/laws/flawed.h"
 
 namespace pbrt::test {
 namespace {
@@ -57,20 +57,20 @@ const PluginInfo& ramp() {
 
 template <Flaw flaw>
 std::string found(std::string_view law) {
-  return finding(ramp<flaw>(), law);
+  return finding({&ramp<flaw>()}, law);
 }
 
 using testing::HasSubstr;
 
 TEST(TextureLaws, FindNothingInAGoodTexture) {
-  expectAllHold(ramp<Flaw::none>());
+  expectGood({&ramp<Flaw::none>()});
 }
 
 // Squares overflow in most formulas; those who promise more are held to it.
 TEST(TextureLaws, GoToNoSizeWhoseSquareOverflows) {
   const PluginInfo& rings = ramp<Flaw::overflow>();
-  EXPECT_EQ(judged(rings, "finite-everywhere").failures(), 0U);
-  EXPECT_GT(judged(rings, "finite-everywhere", {.finiteAtAnySize = true}).failures(), 0U);
+  EXPECT_EQ(judged({&rings}, "finite-everywhere").failures(), 0U);
+  EXPECT_GT(judged({&rings, {}, {.finiteAtAnySize = true}}, "finite-everywhere").failures(), 0U);
 }
 
 TEST(TextureLaws, FindWrongTextures) {

@@ -54,7 +54,7 @@ class Smoke final : public Medium {
 
 template <Kind kind>
 const PluginInfo* plugin() {
-  return pluginOf<Medium, Smoke<kind>>();
+  return &own<Medium, Smoke<kind>>();
 }
 
 TEST(VolumeLaws, AreObeyedBySmoke) {
