@@ -2,6 +2,7 @@
 
 #include "core/plugin/implicit_cells.h"
 #include "core/plugin/implicit_roots.h"
+#include "core/plugin/rounded_hit.h"
 
 namespace pbrt {
 namespace {
@@ -49,11 +50,7 @@ std::optional<ShapeHit> ImplicitShape::intersect(const ObjectRay& ray,
   if (!s) return {};
   const double t = piece.t(*s);
   if (!(t > ray.tMin && t <= ray.tMax)) return {};
-  // Rounding keeps to (tMin, tMax]. What it takes from t goes along in u.
-  auto rounded = static_cast<float>(t);
-  if (rounded <= ray.tMin) rounded = std::nextafter(rounded, kInfinity);
-  if (rounded > ray.tMax) rounded = std::nextafter(rounded, -kInfinity);
-  return ShapeHit{rounded, static_cast<float>(t - rounded), 0, primitive};
+  return roundedHit(ray, t, primitive);
 }
 
 bool ImplicitShape::occluded(const ObjectRay& ray, std::uint32_t primitive) const {

@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "core/plugin/plugin.h"
+#include "core/plugin/rounded_hit.h"
 #include "shapes/metaballs/area.h"
 #include "shapes/metaballs/input.h"
 #include "shapes/metaballs/roots.h"
@@ -69,11 +70,7 @@ std::optional<ShapeHit> Metaballs::intersect(const ObjectRay& ray, std::uint32_t
   const Cell& cell = cells_.cells()[primitive];
   const std::optional<double> t = firstCrossing(field_, cell, cells_.atoms(cell), ray);
   if (!t) return {};
-  // Rounding keeps to (tMin, tMax]. What it takes from t goes along in u.
-  auto rounded = static_cast<float>(*t);
-  if (rounded <= ray.tMin) rounded = std::nextafter(rounded, kInfinity);
-  if (rounded > ray.tMax) rounded = std::nextafter(rounded, -kInfinity);
-  return ShapeHit{rounded, static_cast<float>(*t - rounded), 0, primitive};
+  return roundedHit(ray, *t, primitive);
 }
 
 SurfacePoint Metaballs::surface(const ObjectRay& ray, const ShapeHit& hit) const {
