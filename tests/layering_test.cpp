@@ -40,9 +40,17 @@ const std::vector<Rule>& rules() {
       list.push_back({below.back(), below});
     }
     list[3].what.push_back("parse/scene.");  // made by flex and bison in the build folder
+    // Surfels are a library that a command and an integrator have in common.
+    list.push_back({"tools/particles/", {"core/", "tools/", "shapes/metaballs/"}});
     list.push_back({"tools/", {"core/", "tools/"}});
-    for (const std::string& folder : kPluginFolders)
-      list.push_back({folder, {"core/base/", "core/api/", "core/plugin/", folder + "files/"}});
+    const Strings ofPlugins{"core/base/", "core/api/", "core/plugin/"};
+    const auto addPlugins = [&](const std::string& folder, const Strings& more) {
+      list.push_back({folder, ofPlugins});
+      list.back().what.insert(list.back().what.end(), more.begin(), more.end());
+    };
+    addPlugins("integrators/surfaceparticles/", {"shapes/metaballs/surfels/"});
+    addPlugins("shapes/metaballs/surfels/", {"shapes/metaballs/"});
+    for (const std::string& folder : kPluginFolders) addPlugins(folder, {folder + "files/"});
     return list;
   }();
   return all;

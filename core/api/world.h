@@ -2,6 +2,7 @@
 // What an integrator may ask of a scene.
 
 #include <span>
+#include <vector>
 
 #include "core/api/bsdf.h"
 #include "core/api/camera.h"
@@ -11,6 +12,7 @@
 
 namespace pbrt {
 
+class ImplicitField;
 class VolumeIntegrator;
 
 // Which primitive a ray meets first, and where along it. Geometry and shading data are worked out
@@ -26,6 +28,21 @@ struct Hit {
   bool found() const { return geometry != kNone; }
   // The shape or, of an instance, the whole of it: numbered in the order of the scene.
   std::uint32_t placed() const { return instance == kNone ? geometry : instance; }
+};
+
+// A shape of the scene that is where a field is zero (Shape::implicit()), in its place.
+struct ImplicitSurface {
+  const ImplicitField* field = nullptr;  // the scene owns it
+  Transform toRender;                    // from the field's space; of one that moves, at the start
+  std::uint32_t geometry = Hit::kNone, instance = Hit::kNone;  // as in a hit of it
+
+  bool isOf(const Hit& hit) const { return hit.geometry == geometry && hit.instance == instance; }
+};
+
+// All of them, in the order of the scene.
+struct ImplicitSurfaces {
+  std::vector<ImplicitSurface> surfaces;
+  bool alone = true;  // whether the scene has no other shapes
 };
 
 class World {
@@ -48,6 +65,9 @@ class World {
   // The scattering at a point, none if it has no material (after bump mapping, which turns `at`'s
   // shading frame).
   virtual Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const = 0;
+
+  // For those who look for surfaces without rays. Work that grows with the scene: ask once.
+  virtual ImplicitSurfaces implicitSurfaces() const = 0;
 
   std::span<const Light* const> lights() const { return lights_; }
   std::span<const Light* const> infiniteLights() const { return infiniteLights_; }

@@ -125,4 +125,25 @@ Bsdf Scene::bsdf(SurfaceInteraction& at, Scratch& scratch) const {
   return bsdf;
 }
 
+ImplicitSurfaces Scene::implicitSurfaces() const {
+  ImplicitSurfaces all;
+  const auto add = [&](const Group& group, const Transform& toRender, std::uint32_t instance) {
+    for (std::size_t i = 0; i < group.geometries.size(); ++i) {
+      const Geometry& g = *group.geometries[i];
+      if (const ImplicitField* field = g.mesh ? nullptr : g.shape->implicit())
+        all.surfaces.push_back(
+            {field, toRender * g.toGroup, static_cast<std::uint32_t>(i), instance});
+      else
+        all.alone = false;
+    }
+  };
+  add(root_, Transform(), Hit::kNone);
+  for (std::size_t i = 0; i < instances_.size(); ++i) {
+    const Instance& place = instances_[i];
+    add(*place.group, place.motion ? place.motion->at(0) : place.toRender,
+        static_cast<std::uint32_t>(root_.geometries.size() + i));
+  }
+  return all;
+}
+
 }  // namespace pbrt

@@ -64,6 +64,7 @@ class Scene final : public World, private HitFilter {
   }
   SurfaceInteraction surface(const RayDifferential& ray, const Hit& hit) const override;
   Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const override;
+  ImplicitSurfaces implicitSurfaces() const override;
 
   const Integrator& integrator() const { return *integrator_; }
   const Sampler& sampler() const { return *sampler_; }

@@ -41,6 +41,7 @@ class Stage final : public World {
   Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const override {
     return scene_->bsdf(at, scratch);
   }
+  ImplicitSurfaces implicitSurfaces() const override { return scene_->implicitSurfaces(); }
 
   const std::string& name() const { return name_; }
   bool isLit() const { return !lights().empty(); }

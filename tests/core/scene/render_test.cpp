@@ -156,6 +156,7 @@ TEST(Render, TracesNoRayOfWeightZero) {
     std::uint32_t occluded(std::span<const Ray>) const override { return 0; }
     SurfaceInteraction surface(const RayDifferential&, const Hit&) const override { return {}; }
     Bsdf bsdf(SurfaceInteraction&, Scratch&) const override { throw Error("nothing was hit"); }
+    ImplicitSurfaces implicitSurfaces() const override { return {}; }
 
    private:
     Blind blind_;
