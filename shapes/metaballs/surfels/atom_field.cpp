@@ -111,8 +111,9 @@ bool AtomField::seed(std::uint64_t number, DPoint3& out) const {
   Rng rng(hash(number));
   for (int i = 0; i < 64; ++i) {
     const Atom& atom = atoms_[rng.uniform(static_cast<std::uint32_t>(atoms_.size()))];
-    DPoint3 p = DPoint3(atom.centre) + DVec3(uniformSphere({rng.uniform(), rng.uniform()})) *
-                                           (std::cbrt(rng.uniform()) * atom.radius);
+    DPoint3 p =
+        DPoint3(atom.centre) + DVec3(uniformSphere({rng.uniform(), rng.uniform()})) *
+                                   static_cast<double>(std::cbrt(rng.uniform()) * atom.radius);
     for (int k = 0; k < 8; ++k) {
       const FieldAt f = at(p);
       const double slope2 = lengthSquared(f.gradient);
