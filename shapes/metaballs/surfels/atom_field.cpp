@@ -66,7 +66,7 @@ void AtomField::set(metaballs::Kernel kernel, std::span<const Atom> atoms,
     if (levelCount_ == levels_.size()) levels_.emplace_back();
     float most = 0;
     for (const std::uint32_t j : level) most = std::max(most, atoms[j].radius);
-    levels_[levelCount_++].build(atoms, level, most);
+    levels_[levelCount_++].build(atoms, level, most, hash_);
   }
   findPlaces();
 }

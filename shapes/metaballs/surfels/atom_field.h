@@ -8,6 +8,8 @@ namespace pbrt::surfels {
 
 class AtomField final : public MovingField {
  public:
+  explicit AtomField(HashKind hash = HashKind::traditional) : hash_(hash) {}
+
   // The atoms of the next frame, anything that metaballs::Field accepts, and the velocity of each,
   // length per time, finite; none: all are at rest. `atoms` and `velocities` must stay until the
   // next call. Uses all threads and the memory of earlier frames.
@@ -41,6 +43,7 @@ class AtomField final : public MovingField {
   void findPlaces();
   bool settle(DPoint3& p, double h) const;
 
+  HashKind hash_;
   metaballs::Kernel kernel_ = metaballs::Kernel::poly6;
   std::span<const metaballs::Atom> atoms_;
   std::span<const Vec3> velocities_;
@@ -93,9 +96,9 @@ void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) 
       if (isFinite(Vec3(points[i])))
         order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
     for (std::size_t g = 0; g < count; ++g) {
-      const CellFrame frame = hash.frame(groups[g].key);
       const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
-      hash.visit(atoms_, frame, [&](const AtomRun& run) { visit(frame, members, run); });
+      hash.visit(atoms_, groups[g].key,
+                 [&](const CellFrame& frame, const AtomRun& run) { visit(frame, members, run); });
     }
   }
 }
