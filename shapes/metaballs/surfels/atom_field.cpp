@@ -134,7 +134,7 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
   }
   if (count == 0) return;
   std::array<ExactSums, kChunk> sums;
-  exactly(std::span(steep).first(count), sums);
+  exactly(std::span(steep).first(count), velocities_, sums);
   for (std::size_t i = 0; i < count; ++i) {
     const ExactSums& s = sums[i];
     // At the middle of an atom, where no slope tells whose velocity counts, its field does.
@@ -145,13 +145,14 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
   }
 }
 
-void AtomField::exactly(std::span<const DPoint3> points, std::span<ExactSums> sums) const {
+void AtomField::exactly(std::span<const DPoint3> points, std::span<const Vec3> velocities,
+                        std::span<ExactSums> sums) const {
   std::fill_n(sums.begin(), points.size(), ExactSums{});
   visitCells(points,
              [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
                for (const std::uint16_t i : members)
                  atomLoops().addExactly(kernel_, atoms_, AtomList(run.number, run.count),
-                                        velocities_, points[i], sums[i]);
+                                        velocities, points[i], sums[i]);
              });
 }
 

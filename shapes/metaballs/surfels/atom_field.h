@@ -27,7 +27,8 @@ class AtomField final : public MovingField {
 
   // These take at most kChunk points.
   void some(std::span<const DPoint3> points, std::span<FieldAt> out) const;
-  void exactly(std::span<const DPoint3> points, std::span<ExactSums> sums) const;
+  void exactly(std::span<const DPoint3> points, std::span<const Vec3> velocities,
+               std::span<ExactSums> sums) const;
   // Calls visit(frame, members, run) with cells, which of the points are in it, and some of the
   // atoms that touch it, until all were in a run.
   template <class Visit>

@@ -100,7 +100,7 @@ void AtomField::findPlaces() {
         trials[i] = propose(trial, rngs[i]);
         points[i] = trials[i].p;
       }
-      exactly(points, at);
+      exactly(points, {}, at);
       for (std::size_t i = 0; i < kTask; ++i)
         if (!(std::abs(at[i].value - 1) < kShell * trials[i].h * glm::length(at[i].gradient)) ||
             uniform(rngs[i]) * density(points[i]) >= kAccepted)
@@ -116,7 +116,7 @@ void AtomField::findPlaces() {
 bool AtomField::settle(DPoint3& p, double h) const {
   for (int step = 0;; ++step) {
     ExactSums sums;
-    exactly({&p, 1}, {&sums, 1});
+    exactly({&p, 1}, {}, {&sums, 1});
     const double f = sums.value - 1, slope = glm::length(sums.gradient);
     const double distance = std::abs(f) / slope;
     if (distance <= kClose * h) return true;
