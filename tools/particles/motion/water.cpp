@@ -1,22 +1,43 @@
 #include "tools/particles/motion/water.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <numeric>
 
 #include "core/base/parallel.h"
+#include "shapes/metaballs/lanes.h"
 
 namespace pbrt::motion {
 namespace {
 
+using metaballs::Floats, metaballs::kLanes;
+
 constexpr float kSupport = 2;        // over the spacing
-constexpr std::size_t kPiece = 128;  // particles
-constexpr int kIterations = 2;       // of the constraints, a step
+constexpr std::size_t kPiece = 128;  // particles in a piece of parallel work
 constexpr float kCourant = 0.2F;     // how far a wave goes in a step, in spacings
 constexpr float kViscosity = 4;      // per second
 constexpr float kRelaxation = 0.8F;  // neighbours correct the same error at once
 constexpr float kSoftness = 0.05F;   // of a constraint, where a particle has few neighbours
+
+Floats load(const float* numbers) {
+  Floats lanes;
+  std::memcpy(&lanes, numbers, sizeof lanes);
+  return lanes;
+}
+
+Floats gather(const std::vector<float>& numbers, const std::uint32_t* which) {
+  Floats lanes;
+  for (int i = 0; i < kLanes; ++i) lanes[i] = numbers[which[i]];
+  return lanes;
+}
+
+Floats squareRoot(Floats a) {
+  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
+}
 
 // The kernel is (1 - r / h)^3, of Desbrun and Gascuel 1996 (spiky in Mueller et al. 2003), over its
 // sum for a particle in a cubic lattice.
@@ -36,6 +57,16 @@ const float kWhole = kNorm * 4 * std::numbers::pi_v<float> * kSupport * kSupport
 
 }  // namespace
 
+void Water::Vectors::assign(std::size_t n, float value) {
+  for (std::vector<float>* axis : {&x, &y, &z}) axis->assign(n, value);
+}
+
+void Water::Vectors::set(std::size_t i, const Vec3& v) {
+  x[i] = v.x;
+  y[i] = v.y;
+  z[i] = v.z;
+}
+
 Water::Water(std::vector<Point3> positions, const Bounds3& tank, float spacing, float depth)
     : positions_(std::move(positions)),
       velocities_(positions_.size()),
@@ -47,12 +78,13 @@ Water::Water(std::vector<Point3> positions, const Bounds3& tank, float spacing, 
       cells_(glm::ivec3(glm::floor(tank.diagonal() / support_)) + 1),
       aims_(positions_.size()),
       number_(positions_.size()),
-      at_(positions_.size()),
-      moved_(positions_.size()),
-      speed_(positions_.size()),
       density_(positions_.size()),
-      pressure_(positions_.size()),
-      pieces_((positions_.size() + kPiece - 1) / kPiece) {}
+      pressure_(positions_.size() + 1),
+      drag_(positions_.size()),
+      pieces_((positions_.size() + kPiece - 1) / kPiece) {
+  at_.assign(positions_.size() + kLanes, 1e6F * glm::length(tank_.diagonal()));
+  speed_.assign(positions_.size() + kLanes, 0);
+}
 
 void Water::advance(double seconds) {
   const int steps = static_cast<int>(std::ceil(seconds / longestStep_));
@@ -61,36 +93,67 @@ void Water::advance(double seconds) {
 
 std::vector<float> Water::densities() {
   sort(positions_);
-  findNeighbours();
   weigh();
   std::vector<float> densities(positions_.size());
   for (std::size_t i = 0; i < number_.size(); ++i) densities[number_[i]] = density_[i];
   return densities;
 }
 
-// Calls body(piece, i) for every sorted particle.
+// Calls body(i, its piece) for every sorted particle.
 template <class Body>
 void Water::forEach(Body&& body) {
   parallelFor(pieces_.size(), [&](std::size_t k) {
     const std::size_t end = std::min((k + 1) * kPiece, number_.size());
-    for (std::size_t i = k * kPiece; i < end; ++i) body(pieces_[k], i);
+    for (std::size_t i = k * kPiece; i < end; ++i) body(i, pieces_[k]);
   });
 }
 
-// Calls body(j, d, u) for the particles j within the support of particle i: d is the unit vector
-// from j to i, u is 1 - r / h.
-template <class Body>
-void Water::forNeighbours(const Piece& piece, std::size_t i, Body&& body) const {
+// Adds those within the support of particle i, itself too, and fills up the last eight with the one
+// that is far away.
+void Water::findNeighbours(std::size_t i, Piece& piece) const {
+  using Bytes __attribute__((vector_size(kLanes))) = char;
+  if (i % kPiece == 0) {
+    piece.starts.assign(1, 0);
+    piece.others.clear();
+  }
+  std::vector<std::uint32_t>& others = piece.others;
   const Point3 p = at_[i];
-  for (std::uint32_t k = piece.starts[i % kPiece]; k < piece.starts[i % kPiece + 1]; ++k) {
-    const std::uint32_t j = piece.others[k];
-    const Vec3 d = p - at_[j];
-    const float r2 = lengthSquared(d);
-    if (r2 >= support_ * support_) continue;
-    const float r = std::sqrt(r2);
-    // Two in one place part along y.
-    const Vec3 direction = r > 0 ? d / r : Vec3(0, i < j ? -1 : 1, 0);
-    body(j, direction, 1 - r / support_);
+  const glm::ivec3 c = cell(p);
+  const int x0 = std::max(c.x - 1, 0), x1 = std::min(c.x + 1, cells_.x - 1);
+  for (int z = std::max(c.z - 1, 0); z <= std::min(c.z + 1, cells_.z - 1); ++z)
+    for (int y = std::max(c.y - 1, 0); y <= std::min(c.y + 1, cells_.y - 1); ++y) {
+      const int row = (z * cells_.y + y) * cells_.x;
+      const std::uint32_t end = cellStart_[row + x1 + 1];
+      for (std::uint32_t j = cellStart_[row + x0]; j < end; j += kLanes) {
+        const Floats dx = p.x - load(&at_.x[j]), dy = p.y - load(&at_.y[j]),
+                     dz = p.z - load(&at_.z[j]);
+        const auto near = dx * dx + dy * dy + dz * dz < support_ * support_;
+        // A byte a lane.
+        auto lanes = std::bit_cast<std::uint64_t>(__builtin_convertvector(near, Bytes));
+        lanes &= 0x0101010101010101;
+        if (end - j < kLanes) lanes &= (std::uint64_t{1} << (8 * (end - j))) - 1;
+        for (; lanes != 0; lanes &= lanes - 1)
+          others.push_back(j + static_cast<std::uint32_t>(std::countr_zero(lanes)) / 8);
+      }
+    }
+  while (others.size() % kLanes != 0) others.push_back(static_cast<std::uint32_t>(number_.size()));
+  piece.starts.push_back(static_cast<std::uint32_t>(others.size()));
+}
+
+// Calls body(others, x, y, z, u) for the neighbours of particle i, eight at a time: u is 1 - r / h,
+// or zero, and (x, y, z) is the unit vector from them to particle i. It is among them, with the
+// vector 0 and u = 1.
+template <class Body>
+void Water::forNeighbours(std::size_t i, const Piece& piece, Body&& body) const {
+  const Point3 p = at_[i];
+  const float inverse = 1 / support_;
+  for (std::uint32_t k = piece.starts[i % kPiece]; k < piece.starts[i % kPiece + 1]; k += kLanes) {
+    const std::uint32_t* others = &piece.others[k];
+    const Floats dx = p.x - gather(at_.x, others), dy = p.y - gather(at_.y, others),
+                 dz = p.z - gather(at_.z, others);
+    const Floats r = squareRoot(dx * dx + dy * dy + dz * dz);
+    const Floats over = 1 / metaballs::max(r, Floats{} + 1e-30F);
+    body(others, dx * over, dy * over, dz * over, metaballs::positivePart(1 - r * inverse));
   }
 }
 
@@ -112,8 +175,11 @@ Water::Wall Water::wall(const Point3& p) const {
   return wall;
 }
 
+// Beyond a wall space is folded back and very thin, so that particles which come into a corner do
+// not come to one place, from where nothing could part them.
 Point3 Water::inside(const Point3& p) const {
-  return glm::clamp(p, tank_.lo, tank_.hi);
+  const Point3 q = glm::clamp(p, tank_.lo, tank_.hi);
+  return q + 0.01F * (q - p);
 }
 
 glm::ivec3 Water::cell(const Point3& p) const {
@@ -133,96 +199,78 @@ void Water::sort(std::span<const Point3> points) {
   for (std::size_t i = points.size(); i-- > 0;) {
     const std::uint32_t place = --cellStart_[index(points[i])];
     number_[place] = static_cast<std::uint32_t>(i);
-    at_[place] = points[i];
+    at_.set(place, points[i]);
+    speed_.set(place, velocities_[i]);
   }
-}
-
-// Those that may come within the support during a step's corrections, too.
-void Water::findNeighbours() {
-  const float reach2 = sqr(1.1F * support_);
-  forEach([&](Piece& piece, std::size_t i) {
-    if (i % kPiece == 0) {
-      piece.starts.assign(1, 0);
-      piece.others.clear();
-    }
-    const Point3 p = at_[i];
-    const glm::ivec3 c = cell(p);
-    const int x0 = std::max(c.x - 1, 0), x1 = std::min(c.x + 1, cells_.x - 1);
-    for (int z = std::max(c.z - 1, 0); z <= std::min(c.z + 1, cells_.z - 1); ++z)
-      for (int y = std::max(c.y - 1, 0); y <= std::min(c.y + 1, cells_.y - 1); ++y) {
-        const int row = (z * cells_.y + y) * cells_.x;
-        for (std::uint32_t j = cellStart_[row + x0]; j < cellStart_[row + x1 + 1]; ++j)
-          if (j != i && lengthSquared(at_[j] - p) < reach2) piece.others.push_back(j);
-      }
-    piece.starts.push_back(static_cast<std::uint32_t>(piece.others.size()));
-  });
 }
 
 // Densities, and how hard each particle has to push: equations 1, 8, 9 and 11 of the paper. There
 // is no tension: a density below that at rest is none of a constraint's business.
 void Water::weigh() {
-  forEach([&](const Piece& piece, std::size_t i) {
+  const float slope = 3 * kNorm / support_;
+  forEach([&](std::size_t i, Piece& piece) {
+    findNeighbours(i, piece);
+    Floats density{}, squares{}, gx{}, gy{}, gz{}, vx{}, vy{}, vz{};
+    forNeighbours(i, piece,
+                  [&](const std::uint32_t* others, Floats x, Floats y, Floats z, Floats u) {
+                    const Floats u2 = u * u, u3 = u * u2;
+                    density += u3;
+                    squares += u2 * u2;
+                    gx += u2 * x;
+                    gy += u2 * y;
+                    gz += u2 * z;
+                    vx += u3 * gather(speed_.x, others);
+                    vy += u3 * gather(speed_.y, others);
+                    vz += u3 * gather(speed_.z, others);
+                  });
+    const Floats sums = metaballs::sums(density, squares, gx, gy, gz, vx, vy, vz);
     const Wall outside = wall(at_[i]);
-    float density = kNorm + outside.value, squares = 0;
-    Vec3 gradient = outside.gradient;
-    const float slope = 3 * kNorm / support_;
-    forNeighbours(piece, i, [&](std::uint32_t, const Vec3& d, float u) {
-      density += kNorm * u * u * u;
-      const Vec3 g = -slope * u * u * d;
-      gradient += g;
-      squares += lengthSquared(g);
-    });
-    density_[i] = density;
-    pressure_[i] = std::max(density - 1, 0.F) /
-                   (squares + lengthSquared(gradient) + kSoftness / sqr(spacing_));
+    const Vec3 gradient = outside.gradient - slope * Vec3(sums[2], sums[3], sums[4]);
+    const float itself = 1;
+    density_[i] = kNorm * sums[0] + outside.value;
+    pressure_[i] =
+        std::max(density_[i] - 1, 0.F) /
+        (sqr(slope) * (sums[1] - itself) + lengthSquared(gradient) + kSoftness / sqr(spacing_));
+    drag_[i] = kNorm * (Vec3(sums[5], sums[6], sums[7]) - sums[0] * speed_[i]);
   });
 }
 
-// Equation 12.
-void Water::push() {
-  forEach([&](const Piece& piece, std::size_t i) {
-    Vec3 shift = -pressure_[i] * wall(at_[i]).gradient;
-    const float slope = 3 * kNorm / support_;
-    forNeighbours(piece, i, [&](std::uint32_t j, const Vec3& d, float u) {
-      shift += (pressure_[i] + pressure_[j]) * slope * u * u * d;
-    });
-    const float most = 0.1F * spacing_;
-    moved_[i] = inside(at_[i] + kRelaxation * shift * std::min(1.F, most / glm::length(shift)));
-  });
-  std::swap(at_, moved_);
-}
-
-// Schechter and Bridson 2012 (XSPH): neighbours come to move alike. It is symmetric, so momentum
-// stays, and below one, so energy falls.
-void Water::smoothVelocities(float dt) {
-  const float share = std::min(kViscosity * dt, 0.5F);
-  forEach([&](const Piece& piece, std::size_t i) {
-    Vec3 change(0);
-    forNeighbours(piece, i, [&](std::uint32_t j, const Vec3&, float u) {
-      change += kNorm * u * u * u * (speed_[j] - speed_[i]);
-    });
-    velocities_[number_[i]] = speed_[i] + share * change;
+// Equation 12; and equation 17 (XSPH, of Schechter and Bridson 2012) put into positions, too. That
+// is symmetric, so momentum stays, and less than it takes to be as fast as the neighbours, so
+// energy falls.
+void Water::push(float dt) {
+  const float slope = 3 * kNorm / support_, most = 0.1F * spacing_;
+  const float viscosity = std::min(kViscosity * dt, 0.5F);
+  forEach([&](std::size_t i, const Piece& piece) {
+    Floats sx{}, sy{}, sz{};
+    forNeighbours(i, piece,
+                  [&](const std::uint32_t* others, Floats x, Floats y, Floats z, Floats u) {
+                    const Floats size = (pressure_[i] + gather(pressure_, others)) * u * u;
+                    sx += size * x;
+                    sy += size * y;
+                    sz += size * z;
+                  });
+    const Floats sums = metaballs::sums(sx, sy, sz, sx, sy, sz, sx, sy);
+    Vec3 shift = kRelaxation *
+                 (slope * Vec3(sums[0], sums[1], sums[2]) - pressure_[i] * wall(at_[i]).gradient);
+    shift *= std::min(1.F, most / glm::length(shift));
+    const std::uint32_t number = number_[i];
+    const Point3 p = inside(at_[i] + shift + dt * viscosity * drag_[i]);
+    velocities_[number] = (p - positions_[number]) / dt;
+    positions_[number] = p;
   });
 }
 
 void Water::step(float dt) {
   for (std::size_t i = 0; i < positions_.size(); ++i) {
-    Vec3 v = velocities_[i] - Vec3(0, kGravity * dt, 0);
+    Vec3& v = velocities_[i];
+    v.y -= kGravity * dt;
     v *= std::min(1.F, fastest_ / glm::length(v));
     aims_[i] = inside(positions_[i] + dt * v);
   }
   sort(aims_);
-  findNeighbours();
-  for (int i = 0; i < kIterations; ++i) {
-    weigh();
-    push();
-  }
-  for (std::size_t i = 0; i < number_.size(); ++i) {
-    Point3& p = positions_[number_[i]];
-    speed_[i] = (at_[i] - p) / dt;
-    p = at_[i];
-  }
-  smoothVelocities(dt);
+  weigh();
+  push(dt);
 }
 
 }  // namespace pbrt::motion

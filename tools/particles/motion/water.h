@@ -29,26 +29,31 @@ class Water {
   std::vector<float> densities();
 
  private:
-  // The sorted particles [first, last) of one piece of parallel work, and those nearby.
-  struct Piece {
-    std::vector<std::uint32_t> starts;  // into `others`; one more than there are particles
-    std::vector<std::uint32_t> others;  // sorted numbers
-  };
   struct Wall {
     float value = 0;
     Vec3 gradient{};
   };
+  struct Vectors {
+    std::vector<float> x, y, z;
+    void assign(std::size_t n, float value);
+    void set(std::size_t i, const Vec3& v);
+    Vec3 operator[](std::size_t i) const { return {x[i], y[i], z[i]}; }
+  };
+  // What is near some particles that follow each other in the order of the cells.
+  struct Piece {
+    std::vector<std::uint32_t> starts;  // of each one's neighbours; and the end
+    std::vector<std::uint32_t> others;
+  };
 
   void step(float dt);
   void sort(std::span<const Point3> points);
-  void findNeighbours();
   void weigh();
-  void push();
-  void smoothVelocities(float dt);
+  void push(float dt);
+  void findNeighbours(std::size_t i, Piece& piece) const;
   template <class Body>
   void forEach(Body&& body);
   template <class Body>
-  void forNeighbours(const Piece& piece, std::size_t i, Body&& body) const;
+  void forNeighbours(std::size_t i, const Piece& piece, Body&& body) const;
   Wall wall(const Point3& p) const;
   Point3 inside(const Point3& p) const;
   glm::ivec3 cell(const Point3& p) const;
@@ -62,15 +67,14 @@ class Water {
   float fastest_;
   glm::ivec3 cells_;
 
-  std::vector<Point3> aims_;  // where they would be without the others
-
-  // In the order of the cells.
+  std::vector<Point3> aims_;  // where they would be without each other
+  // In the order of the cells; then one that is far away, and room for lanes that do not count.
   std::vector<std::uint32_t> number_;     // of the particle
   std::vector<std::uint32_t> cellStart_;  // the first particle of each cell, and the end
-  std::vector<Point3> at_, moved_;        // as corrected so far
-  std::vector<Vec3> speed_;
+  Vectors at_, speed_;
   std::vector<float> density_;
   std::vector<float> pressure_;  // the constraint's Lagrange multiplier
+  std::vector<Vec3> drag_;       // by how much neighbours are faster, on the mean
   std::vector<Piece> pieces_;
 };
 
