@@ -40,4 +40,7 @@ const std::vector<std::string>& motionNames();
 // axis points up; it is about 1 wide. Throws Error, Failure::usage.
 std::unique_ptr<Motion> makeMotion(const std::string& name, int atoms = 1500, double fps = 60);
 
+// Throws Error, Failure::usage, if there cannot be so many frames a second.
+void checkFrameRate(double fps);
+
 }  // namespace pbrt::motion
