@@ -24,7 +24,7 @@ class Ball final : public MovingField {
   bool seeds(std::uint64_t first, std::span<DPoint3> out) const override {
     for (DPoint3& p : out) {
       Rng rng(first++);
-      p = rng.uniform() * DVec3(uniformSphere({rng.uniform(), rng.uniform()}));
+      p = double{rng.uniform()} * DVec3(uniformSphere({rng.uniform(), rng.uniform()}));
     }
     return true;
   }
