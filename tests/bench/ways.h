@@ -27,10 +27,10 @@ class View {
   View(const Bounds3& box, int size);
 
   int size() const { return size_; }
-  const Point3& eye() const { return eye_; }
   std::size_t blocks() const { return rays_.size(); }
   // Row by row; directions are unit vectors.
   std::span<const Ray> rays(std::size_t block) const { return rays_[block]; }
+  const surfels::Beam& beam(std::size_t block) const { return beams_[block]; }
   // The pixel of ray i of a block.
   Point2i pixel(std::size_t block, int i) const {
     const auto b = static_cast<int>(block), across = size_ / kBlock;
@@ -39,8 +39,8 @@ class View {
 
  private:
   int size_;
-  Point3 eye_{};
   std::vector<std::vector<Ray>> rays_;
+  std::vector<surfels::Beam> beams_;
 };
 
 inline View::View(const Bounds3& box, int size) : size_(size) {
@@ -48,15 +48,16 @@ inline View::View(const Bounds3& box, int size) : size_(size) {
   const Vec3 forward = glm::normalize(Vec3(-0.5F, -0.4F, -0.8F));
   const Vec3 right = glm::normalize(glm::cross(forward, Vec3(0, 1, 0)));
   const Vec3 up = glm::cross(right, forward);
-  eye_ = box.centre() - 3 * radius * forward;
+  const Point3 eye = box.centre() - 3 * radius * forward;
   const float halfWidth = 1 / std::sqrt(8.F);  // the cone about a ball three of its radii away
   rays_.resize(sqr(static_cast<std::size_t>(size / kBlock)));
   for (std::size_t block = 0; block < rays_.size(); ++block)
     for (int i = 0; i < sqr(kBlock); ++i) {
       const Point2 p = (Point2(pixel(block, i)) + 0.5F) / static_cast<float>(size) * 2.F - 1.F;
       const Vec3 d = forward + halfWidth * (p.x * right - p.y * up);
-      rays_[block].push_back({eye_, 0, glm::normalize(d)});
+      rays_[block].push_back({eye, 0, glm::normalize(d)});
     }
+  for (const auto& rays : rays_) beams_.emplace_back(rays, kBlock);
 }
 
 class Way {
@@ -68,7 +69,7 @@ class Way {
   virtual std::string name() const = 0;
   // Makes ready the next frame, `dt` after the last; `fluid` stays until the one after that.
   virtual void set(const Fluid& fluid, double dt) = 0;
-  virtual void draw(const View& view, Picture& out) = 0;
+  virtual void draw(const View& view, Picture& out) const = 0;
   virtual std::size_t primitives() const = 0;
   virtual std::span<const surfels::Surfel> surfels() const { return {}; }
 };
@@ -76,7 +77,7 @@ class Way {
 // By the ray tree, in packets of 4 x 4 pixels.
 class TracedWay : public Way {
  public:
-  void draw(const View& view, Picture& out) override;
+  void draw(const View& view, Picture& out) const override;
 
  protected:
   virtual Seen seen(const Ray& ray, const Hit& hit) const = 0;
@@ -88,7 +89,7 @@ class TracedWay : public Way {
   std::optional<Accel> tree_;
 };
 
-inline void TracedWay::draw(const View& view, Picture& out) {
+inline void TracedWay::draw(const View& view, Picture& out) const {
   parallelFor(view.blocks(), [&](std::size_t block) {
     constexpr int side = 4, across = View::kBlock / side;
     const std::span<const Ray> rays = view.rays(block);
@@ -176,8 +177,9 @@ class Points final : public Way {
     field_.set(fluid.kernel, fluid.atoms, fluid.velocities);
     if (anew_ > 0) simulation_ = surfels::Simulation(settings_);
     for (int i = 0; i < std::max(1, anew_); ++i) simulation_.step(field_, anew_ > 0 ? 0 : dt);
+    discs_.set(simulation_.surfels(), DPoint3(0));
   }
-  void draw(const View& view, Picture& out) override;
+  void draw(const View& view, Picture& out) const override;
   std::size_t primitives() const override { return surfels().size(); }
   std::span<const surfels::Surfel> surfels() const override { return simulation_.surfels(); }
 
@@ -186,7 +188,18 @@ class Points final : public Way {
   int anew_;
   surfels::AtomField field_;
   surfels::Simulation simulation_;
-  std::vector<surfels::Beam> beams_;  // of the view, made once
+  surfels::Discs discs_;
 };
+
+inline void Points::draw(const View& view, Picture& out) const {
+  parallelFor(view.blocks(), [&](std::size_t block) {
+    std::array<surfels::Fragment, sqr(View::kBlock)> fragments;
+    discs_.draw(view.beam(block), fragments);
+    for (int i = 0; i < sqr(View::kBlock); ++i) {
+      const Point2i p = view.pixel(block, i);
+      out.at(p.x, p.y) = {fragments[i].t, DVec3(fragments[i].n)};
+    }
+  });
+}
 
 }  // namespace pbrt::bench
