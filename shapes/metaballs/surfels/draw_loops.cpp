@@ -120,7 +120,8 @@ static void look(const Rays& rays, const Disc* discs, std::span<const std::uint3
   }
   // At a grazing angle the step is kept short.
   const Floats step = values / max(-dot(n, d), 0.1F * weights);
-  seen.t = weights > 0 ? max(rays.tMin, min(rays.tMax, first + step)) : Floats{} + kInfinity;
+  seen.t = (first < kInfinity) & (weights > 0) ? max(rays.tMin, min(rays.tMax, first + step))
+                                               : Floats{} + kInfinity;
   seen.nx = n.x, seen.ny = n.y, seen.nz = n.z;
   seen.surfel = surfel;
 }

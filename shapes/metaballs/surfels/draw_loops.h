@@ -12,6 +12,8 @@ namespace pbrt::surfels {
 using metaballs::Floats;
 using metaballs::kLanes;
 using Numbers __attribute__((vector_size(kLanes * sizeof(std::uint32_t)))) = std::uint32_t;
+// Without wide registers the compiler aligns vectors less than the loops for wide ones expect.
+inline constexpr std::size_t kAligned = sizeof(Floats);
 
 // Holds some rays: their origins lie in a ball, their unit directions within an angle of an axis.
 struct Bound {
@@ -23,7 +25,7 @@ struct Bound {
 };
 
 // Eight balls that hold discs. Where a surface in one faces, n, changes by no more than `turn`.
-struct Balls {
+struct alignas(kAligned) Balls {
   Floats x{}, y{}, z{}, radius = Floats{} - kInfinity;  // less than any: nothing is in it
   Floats nx{}, ny{}, nz{}, turn{};
 };
@@ -40,13 +42,13 @@ struct Disc {
 };
 
 // Eight rays of unit direction.
-struct Rays {
+struct alignas(kAligned) Rays {
   Floats ox{}, oy{}, oz{}, dx{}, dy{}, dz{};
   Floats tMin{}, tMax = Floats{} - kInfinity;  // less than tMin: not a ray
 };
 
 // What eight rays see. t is infinite where they see nothing.
-struct Seen {
+struct alignas(kAligned) Seen {
   Floats t, nx, ny, nz;  // n is not a unit vector
   Numbers surfel;
 };
