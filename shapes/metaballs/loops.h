@@ -9,18 +9,22 @@
 
 namespace pbrt::metaballs {
 
+// Code compiled for wide registers relies on their alignment, and code compiled for narrow ones,
+// which makes these objects, would not see to it by itself.
+inline constexpr std::size_t kLaneAlignment = sizeof(Floats);
+
 // Eight boxes, one a lane.
-struct Eight {
+struct alignas(kLaneAlignment) Eight {
   Floats centre[3], half[3];
 };
 
 // a + b.x + g |x|^2 in eight lanes, x from a box's centre.
-struct Paraboloid {
+struct alignas(kLaneAlignment) Paraboloid {
   Floats a{}, b[3] = {}, g{};
 };
 
 // Bounds of f over eight boxes: below - slack <= f <= above + slack.
-struct EightBounds {
+struct alignas(kLaneAlignment) EightBounds {
   Paraboloid below, above;
   Floats slack{};          // of rounding
   unsigned undecided = 0;  // boxes in which f may be zero
