@@ -5,7 +5,7 @@
 namespace pbrt::surfels {
 namespace {
 
-constexpr std::size_t kBatch = 128;
+constexpr std::size_t kBatch = 256;
 
 // Looks at the field along a path that has not yet met both sides of the surface, and in all: a
 // bisection of a step halves it to the last bit of a double in 53.

@@ -182,6 +182,7 @@ void Simulation::State::push() {
   const auto n = static_cast<double>(surfels_.size());
   const double mean = all.density / n;
   report_.evenness = std::sqrt(std::max(0.0, all.squares / n - mean * mean)) / mean;
+  evenness_ = static_cast<float>(report_.evenness);
   report_.residual = all.value;
   // There are as many neighbours as the reach squared has area.
   const double wanted = std::min(kNeighbours, n - 1);
