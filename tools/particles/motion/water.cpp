@@ -17,7 +17,7 @@ using metaballs::Floats, metaballs::kLanes;
 
 constexpr float kSupport = 2;        // over the spacing
 constexpr std::size_t kPiece = 128;  // particles in a piece of parallel work
-constexpr float kCourant = 0.2F;     // how far a wave goes in a step, in spacings
+constexpr float kCourant = 0.25F;    // how far a wave goes in a step, in spacings
 constexpr float kViscosity = 4;      // per second
 constexpr float kRelaxation = 0.8F;  // neighbours correct the same error at once
 constexpr float kSoftness = 0.05F;   // of a constraint, where a particle has few neighbours
