@@ -21,15 +21,18 @@ class AtomField final : public MovingField {
   bool seeds(std::uint64_t first, std::span<DPoint3> out) const override;
 
  private:
-  FieldAt at(const DPoint3& p) const;
-  bool seed(std::uint64_t number, DPoint3& out) const;
-  // Calls visit(list) with atoms until all that reach p were in a list.
+  // The next three take few points.
+  void some(std::span<const DPoint3> points, std::span<FieldAt> out) const;
+  // Calls visit(frame, members, run) with cells, which of the points are in it, and some of the
+  // atoms that touch it, until all were in a run.
   template <class Visit>
-  void visitReaching(const DPoint3& p, const Visit& visit) const;
+  void visitCells(std::span<const DPoint3> points, const Visit& visit) const;
+  bool seed(std::uint64_t number, DPoint3& out) const;
 
   metaballs::Kernel kernel_ = metaballs::Kernel::poly6;
   std::span<const metaballs::Atom> atoms_;
   std::span<const Vec3> velocities_;
+  float fastest_ = 1;  // component of a velocity
   Bounds3 bounds_;
   double grain_ = 1;
   // Atoms by their radius, a level for each factor of 4, the largest first: the cells of a level

@@ -1,10 +1,11 @@
 #pragma once
 // Which atoms reach a place: a hash grid over the atoms of about one radius.
 
+#include <array>
 #include <vector>
 
 #include "core/base/rng.h"
-#include "shapes/metaballs/field.h"
+#include "shapes/metaballs/surfels/atom_loops.h"
 
 namespace pbrt::surfels {
 
@@ -27,21 +28,15 @@ struct CellKey {
 class AtomHash {
  public:
   // Of the atoms with these numbers, whose radii are at most `largest`. Memory is used again.
-  void build(std::span<const metaballs::Atom> atoms, std::span<const std::uint32_t> numbers,
-             double largest);
+  void build(std::span<const Atom> atoms, std::span<const std::uint32_t> numbers, double largest);
 
-  double cellSide() const { return side_; }
   // `p` is finite.
   CellKey cellAt(const DPoint3& p) const { return keyAt(p, 1 / side_); }
-  DPoint3 centre(const CellKey& cell) const {
-    return side_ * (DVec3(static_cast<double>(cell.x), static_cast<double>(cell.y),
-                          static_cast<double>(cell.z)) +
-                    0.5);
-  }
-  // Calls visit(number) for every atom whose support touches the cell, in an order that depends on
-  // the cell alone.
+  CellFrame frame(const CellKey& cell) const;
+  // Calls visit(run) until all atoms whose supports touch the cell were in a run, in an order that
+  // depends on the cell alone.
   template <class Visit>
-  void visit(std::span<const metaballs::Atom> atoms, const CellKey& cell, const Visit& visit) const;
+  void visit(std::span<const Atom> atoms, const CellFrame& cell, const Visit& visit) const;
 
  private:
   // Cells along a bin's side, which is the largest radius: the supports that touch a cell have
@@ -50,7 +45,7 @@ class AtomHash {
 
   struct Bin {
     CellKey key;
-    std::uint32_t first = 0, count = 0;  // in numbers_; none: no bin
+    std::uint32_t first = 0, count = 0;  // in numbers_
   };
 
   static CellKey keyAt(const DPoint3& p, double inverseSide) {
@@ -58,38 +53,51 @@ class AtomHash {
     return {static_cast<std::int64_t>(k.x), static_cast<std::int64_t>(k.y),
             static_cast<std::int64_t>(k.z)};
   }
-  // That of the key, or the empty one where it would be.
-  const Bin& find(const CellKey& key) const {
-    std::size_t slot = key.hash() & mask_;
-    while (bins_[slot].count > 0 && bins_[slot].key != key) slot = (slot + 1) & mask_;
-    return bins_[slot];
+  // Where the bin is in the table, or where it would be.
+  std::size_t slotOf(const CellKey& key) const {
+    const std::size_t mask = table_.size() - 1;
+    std::size_t slot = key.hash() & mask;
+    while (table_[slot] > 0 && bins_[table_[slot] - 1].key != key) slot = (slot + 1) & mask;
+    return slot;
   }
+  void grow();
 
   double side_ = 1;
-  std::size_t mask_ = 0;
-  std::vector<Bin> bins_;  // open addressing, linear probing
-  std::vector<std::uint32_t> slots_, numbers_;
+  std::vector<Bin> bins_;             // in the order of their first atoms
+  std::vector<std::uint32_t> table_;  // open addressing: number of a bin + 1, or 0
+  std::vector<std::uint32_t> binOf_;  // of each atom
+  std::vector<std::uint32_t> numbers_;
 };
 
 template <class Visit>
-void AtomHash::visit(std::span<const metaballs::Atom> atoms, const CellKey& cell,
-                     const Visit& visit) const {
-  const DPoint3 c = centre(cell);
-  // Half a cell, and what its place and that of a point in it may be off by.
-  const double half =
-      side_ * (0.5 + 0x1p-20) + 0x1p-50 * std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
-  const CellKey bin = keyAt(c, 1 / (kCellsToBin * side_));
+void AtomHash::visit(std::span<const Atom> atoms, const CellFrame& cell, const Visit& visit) const {
+  const AtomLoops& loops = atomLoops();
+  AtomRun run;
+  std::array<std::uint32_t, 512> candidates;
+  std::size_t count = 0;
+  const auto flush = [&] {
+    for (std::size_t i = 0; i < count;) {
+      i += loops.gather(atoms, AtomList(candidates.data() + i, count - i), cell, run);
+      if (run.count + kLanes <= AtomRun::kMost) continue;
+      visit(run);
+      run.count = 0;
+    }
+    count = 0;
+  };
+  const CellKey bin = keyAt(cell.centre, 1 / (kCellsToBin * side_));
   for (std::int64_t z = bin.z - 1; z <= bin.z + 1; ++z)
     for (std::int64_t y = bin.y - 1; y <= bin.y + 1; ++y)
       for (std::int64_t x = bin.x - 1; x <= bin.x + 1; ++x) {
-        const Bin& found = find({x, y, z});
-        for (std::uint32_t i = found.first; i < found.first + found.count; ++i) {
-          const metaballs::Atom& atom = atoms[numbers_[i]];
-          const DVec3 off = glm::max(glm::abs(DPoint3(atom.centre) - c) - half, DVec3(0));
-          const double radius = atom.radius;
-          if (lengthSquared(off) <= radius * radius) visit(numbers_[i]);
+        const std::uint32_t found = table_[slotOf({x, y, z})];
+        if (found == 0) continue;
+        const Bin& b = bins_[found - 1];
+        for (std::uint32_t i = b.first; i < b.first + b.count; ++i) {
+          if (count == candidates.size()) flush();
+          candidates[count++] = numbers_[i];
         }
       }
+  flush();
+  if (run.count > 0) visit(run);
 }
 
 }  // namespace pbrt::surfels
