@@ -63,7 +63,7 @@ inline void Errors::add(const Picture& exact, const Picture& picture, double uni
       const Seen &e = exact.at(x, y), &p = picture.at(x, y);
       add(e, p, unit);
       int differ = 0;
-      for (const auto [dx, dy] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}}) {
+      for (const auto& [dx, dy] : {std::pair(1, 0), {0, 1}, {-1, 0}, {0, -1}}) {
         if (exact.found(x + dx, y + dy) == e.found()) continue;
         ++differ;
         if (dx + dy > 0) ++crossings;

@@ -17,12 +17,11 @@
 #include <chrono>
 #include <functional>
 
-#include "shapes/metaballs/area.h"
-#include "shapes/metaballs/surfels/coverage.h"
 #include "tests/bench/measure.h"
 #include "tests/bench/ways.h"
 #include "tests/bench/ways_picture.h"
 #include "tests/shapes/metaballs/oracle.h"
+#include "tests/shapes/metaballs/surfels/uniform_places.h"
 
 namespace pbrt::bench {
 namespace {
@@ -49,22 +48,6 @@ struct Row {
   Errors errors;
   double covered = 0, leastCovered = 1;  // of points
 };
-
-// Places on the surface, uniform by area.
-std::vector<surfels::Place> uniformPlaces(const metaballs::Field& field, std::uint64_t seed) {
-  const metaballs::Cells cells(field);
-  const metaballs::PatchSampler sampler(field, cells);
-  Rng rng(seed);
-  std::vector<surfels::Place> places;
-  for (std::size_t i = 0; i < kPlaces; ++i) {
-    const AreaSample s = sampler.sample(DPoint3(0), {rng.uniform(), rng.uniform()});
-    if (!(s.pdf > 0)) continue;
-    // The density by solid angle at a distance of one, along the normal, is that by area.
-    const float density = sampler.pdf(s.p + DVec3(s.n), s.p, s.n);
-    if (density > 0) places.push_back({s.p, s.n, 1.0 / density});
-  }
-  return places;
-}
 
 // Some of the ray traced hits against the proven ones.
 void judgeRayTraced(const metaballs::Field& field, const View& view, const Picture& picture,
@@ -185,7 +168,7 @@ void run(const std::string& name, int frames, int size, Report& report) {
       if (i % kJudged != 0) continue;
       if (row.way.get() == &traced) {
         judgeRayTraced(traced.field(), view, exact, h, row.errors);
-        places = uniformPlaces(traced.field(), static_cast<std::uint64_t>(i));
+        places = surfels::test::uniformPlaces(traced.field(), kPlaces);
         continue;
       }
       row.errors.add(exact, picture, h);

@@ -23,7 +23,7 @@ Animation::Animation(motion::Motion& motion, const PinholeCamera& camera, Point2
       rays.clear();
       for (int j = pixels.lo.y; j < pixels.hi.y; ++j)
         for (int i = pixels.lo.x; i < pixels.hi.x; ++i) rays.push_back(camera.ray(i, j));
-      blocks_.push_back({pixels, surfels::Beam(rays, pixels.width(), pixels.height()), first});
+      blocks_.push_back({pixels, surfels::Beam(rays, pixels.width()), first});
       first += rays.size();
     }
   seen_.resize(first);
@@ -72,12 +72,11 @@ FrameFigures Animation::make(int number, const Look& look, bool allChannels, Ima
   if (begins)
     for (int i = 0; i < settle_; ++i) simulation_.step(field_, 0);
   if (image) {
-    std::optional<surfels::Discs> discs;
-    timed(figures.discs, [&] { discs.emplace(surfels(), camera_.eye()); });
+    timed(figures.discs, [&] { discs_.set(surfels(), camera_.eye()); });
     timed(figures.draw, [&] {
       parallelFor(blocks_.size(), [&](std::size_t b) {
         const Block& block = blocks_[b];
-        discs->draw(block.beam, {&seen_[block.first], block.rays()});
+        discs_.draw(block.beam, {&seen_[block.first], block.rays()});
       });
     });
     timed(figures.shade, [&] { shade(look, allChannels, *image); });

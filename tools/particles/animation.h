@@ -58,6 +58,7 @@ class Animation {
   motion::Fluid fluid_;
   surfels::AtomField field_;
   surfels::Simulation simulation_;
+  surfels::Discs discs_;
   std::vector<Block> blocks_;
   std::vector<surfels::Fragment> seen_;
 };
