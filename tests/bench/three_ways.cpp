@@ -3,11 +3,12 @@
 // 2007), from the same camera rays over the same frames. Prints a table for each motion, and
 // writes it to three_ways.csv, and a picture of the three to three-ways.png, in the build folder.
 //
-// Times are means over all frames, of all threads (wall) and of the processor (CPU: all threads
-// together; triangles are made by one thread). Every kJudged-th frame is held against the ray
-// traced hits, and some of these against the oracle: distances along the ray over h, the atoms'
-// usual radius, and angles of the normals. The silhouette's error is the area that only one of two
-// pictures covers over the silhouette's length, in pixels; holes are among pixels well inside.
+// Times are means over all frames but the first, in which points settle, of all threads (wall) and
+// of the processor (CPU: all threads together; triangles are made by one thread). Every kJudged-th
+// frame is held against the ray traced hits, and some of these against the oracle: distances along
+// the ray over h, the atoms' usual radius, and angles of the normals. The silhouette's error is the
+// area that only one of two pictures covers over the silhouette's length, in pixels; holes are
+// among pixels well inside.
 //
 //   three_ways [frames (60)] [pixels along each side (512)] [motion...]
 
@@ -158,8 +159,9 @@ void run(const std::string& name, int frames, int size, Report& report) {
 
   report.motion(name, frames, fluid, size);
   Picture exact{size}, picture{size};
+  for (Row& row : rows) row.way->set(fluid, 0);
   for (int i = 0; i < frames; ++i) {
-    motion->frame(motion->first() + i, fluid);
+    motion->frame(motion->first() + 1 + i, fluid);
     std::vector<surfels::Place> places;
     for (Row& row : rows) {
       row.set.add([&] { row.way->set(fluid, motion->dt()); });

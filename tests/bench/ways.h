@@ -163,31 +163,35 @@ class Triangles final : public TracedWay {
   TriangleMesh mesh_;
 };
 
-// Discs at surfels that follow the fluid from frame to frame; or, if `anew` is above zero, that
-// start anew in every frame and take so many steps.
+// Discs at surfels that settle in the first frame, then follow the fluid from frame to frame; or,
+// if `anew` is above zero, that start anew in every frame and take so many steps.
 class Points final : public Way {
  public:
-  explicit Points(std::size_t count, int anew = 0)
-      : settings_{count}, anew_(anew), simulation_(settings_) {}
+  explicit Points(std::size_t count, int anew = 0) : settings_{count}, anew_(anew) {
+    simulation_.emplace(settings_);
+  }
   std::string name() const override {
     const auto count = fmt::format("{} points", settings_.count);
     return anew_ == 0 ? count : fmt::format("{}, anew, {} step(s)", count, anew_);
   }
   void set(const Fluid& fluid, double dt) override {
     field_.set(fluid.kernel, fluid.atoms, fluid.velocities);
-    if (anew_ > 0) simulation_ = surfels::Simulation(settings_);
-    for (int i = 0; i < std::max(1, anew_); ++i) simulation_.step(field_, anew_ > 0 ? 0 : dt);
-    discs_.set(simulation_.surfels(), DPoint3(0));
+    if (anew_ > 0) simulation_.emplace(settings_);
+    const int steps = anew_ > 0 ? anew_ : simulation_->surfels().empty() ? kSettling : 1;
+    for (int i = 0; i < steps; ++i) simulation_->step(field_, steps == 1 ? dt : 0);
+    discs_.set(simulation_->surfels(), DPoint3(0));
   }
   void draw(const View& view, Picture& out) const override;
   std::size_t primitives() const override { return surfels().size(); }
-  std::span<const surfels::Surfel> surfels() const override { return simulation_.surfels(); }
+  std::span<const surfels::Surfel> surfels() const override { return simulation_->surfels(); }
 
  private:
+  static constexpr int kSettling = 20;  // steps
+
   surfels::Simulation::Settings settings_;
   int anew_;
   surfels::AtomField field_;
-  surfels::Simulation simulation_;
+  std::optional<surfels::Simulation> simulation_;
   surfels::Discs discs_;
 };
 

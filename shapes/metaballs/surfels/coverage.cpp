@@ -28,19 +28,20 @@ struct Run {
   }
 };
 
-Coverage look(std::span<const Run> runs, const Place& place, double within) {
-  Coverage found{0, 0};
+// Whether a place is covered, and whether it is near.
+std::pair<bool, bool> look(std::span<const Run> runs, const Place& place, double within) {
+  bool covered = false, near = false;
   for (const Run& run : runs) {
     if (run.distanceSquared(place.p) > sqr(std::max(run.radius, within))) continue;
     for (const Surfel& s : run.surfels) {
       if (glm::dot(s.n, place.n) <= 0) continue;
       const double d2 = lengthSquared(s.p - place.p);
-      if (d2 <= sqr(static_cast<double>(s.radius))) found.covered = place.weight;
-      if (d2 <= sqr(within)) found.near = place.weight;
+      covered |= d2 <= sqr(static_cast<double>(s.radius));
+      near |= d2 <= sqr(within);
     }
-    if (found.covered > 0 && found.near > 0) break;
+    if (covered && near) break;
   }
-  return found;
+  return {covered, near};
 }
 
 }  // namespace
@@ -77,23 +78,24 @@ Coverage coverage(std::span<const Surfel> surfels, std::span<const Place> places
   std::vector<Run> runs;
   for (std::size_t i = 0; i < surfels.size(); i += kRun)
     runs.emplace_back(surfels.subspan(i, std::min(kRun, surfels.size() - i)));
-  std::vector<Coverage> sums((places.size() + kChunk - 1) / kChunk, {0, 0});
-  parallelFor(sums.size(), [&](std::size_t chunk) {
+  // What is missing is summed up, so that a whole cover is exactly one.
+  std::vector<Coverage> missing((places.size() + kChunk - 1) / kChunk, {0, 0});
+  parallelFor(missing.size(), [&](std::size_t chunk) {
     const std::size_t begin = chunk * kChunk;
     for (const Place& place : places.subspan(begin, std::min(kChunk, places.size() - begin))) {
-      const Coverage found = look(runs, place, within);
-      sums[chunk].covered += found.covered;
-      sums[chunk].near += found.near;
+      const auto [covered, near] = look(runs, place, within);
+      if (!covered) missing[chunk].covered += place.weight;
+      if (!near) missing[chunk].near += place.weight;
     }
   });
   Coverage sum{0, 0};
-  for (const Coverage& part : sums) {
+  for (const Coverage& part : missing) {
     sum.covered += part.covered;
     sum.near += part.near;
   }
   double weight = 0;
   for (const Place& place : places) weight += place.weight;
-  return {sum.covered / weight, sum.near / weight};
+  return {1 - sum.covered / weight, 1 - sum.near / weight};
 }
 
 }  // namespace pbrt::surfels
