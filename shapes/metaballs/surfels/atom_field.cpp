@@ -1,0 +1,252 @@
+#include "shapes/metaballs/surfels/atom_field.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/base/warp.h"
+#include "shapes/metaballs/loops.h"
+
+namespace pbrt::surfels {
+namespace {
+
+constexpr std::size_t kChunk = 256;  // points that are looked at together
+
+bool isFinite(const DPoint3& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+}
+
+}  // namespace
+
+inline namespace portable {
+extern const AtomLoops kAtomLoops;
+}
+#ifdef PBRT_X86
+namespace avx2 {
+extern const AtomLoops kAtomLoops;
+}
+namespace avx512 {
+extern const AtomLoops kAtomLoops;
+}
+#endif
+
+std::span<const AtomLoops* const> allAtomLoops() {
+  static constexpr const AtomLoops* all[] = {
+      &portable::kAtomLoops,
+#ifdef PBRT_X86
+      &avx2::kAtomLoops,
+      &avx512::kAtomLoops,
+#endif
+  };
+  return std::span(all).first(metaballs::allLoops().size());
+}
+
+const AtomLoops& atomLoops() {
+  static const AtomLoops& best = *allAtomLoops().back();
+  return best;
+}
+
+void AtomField::set(metaballs::Kernel kernel, std::span<const Atom> atoms,
+                    std::span<const Vec3> velocities) {
+  kernel_ = kernel;
+  atoms_ = atoms;
+  velocities_ = velocities;
+  fastest_ = 0;
+  for (const Vec3& v : velocities)
+    fastest_ = std::max({fastest_, std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (fastest_ < 1e-30F) fastest_ = 1;
+  bounds_ = {};
+  float largest = 0, smallest = kInfinity;
+  for (const Atom& atom : atoms) {
+    largest = std::max(largest, atom.radius);
+    smallest = std::min(smallest, atom.radius);
+    if (atom.weight <= 0) continue;
+    const auto h = static_cast<double>(atom.radius);
+    bounds_.add(roundOutward(DPoint3(atom.centre) - h, DPoint3(atom.centre) + h));
+  }
+  grain_ = atoms.empty() ? 1 : smallest;
+  for (std::vector<std::uint32_t>& level : byLevel_) level.clear();
+  for (std::uint32_t i = 0; i < atoms.size(); ++i) {
+    const auto level =
+        static_cast<std::size_t>(0.5 * std::log2(static_cast<double>(largest) / atoms[i].radius));
+    if (level >= byLevel_.size()) byLevel_.resize(level + 1);
+    byLevel_[level].push_back(i);
+  }
+  levelCount_ = 0;
+  for (const std::vector<std::uint32_t>& level : byLevel_) {
+    if (level.empty()) continue;
+    if (levelCount_ == levels_.size()) levels_.emplace_back();
+    float most = 0;
+    for (const std::uint32_t j : level) most = std::max(most, atoms[j].radius);
+    levels_[levelCount_++].build(atoms, level, most);
+  }
+}
+
+// Points of one cell are taken together: what touches the cell is looked up once for all of them.
+template <class Visit>
+void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) const {
+  struct Group {
+    CellKey key;
+    std::uint16_t count = 0, end = 0;  // in `order`
+  };
+  std::array<Group, kChunk> groups;
+  std::array<std::uint16_t, kChunk> groupOf, order;
+  for (std::size_t level = 0; level < levelCount_; ++level) {
+    const AtomHash& hash = levels_[level];
+    std::array<std::uint16_t, 2 * kChunk> table{};  // open addressing: a group + 1, or 0
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!isFinite(points[i])) continue;
+      const CellKey key = hash.cellAt(points[i]);
+      std::size_t slot = key.hash() % table.size();
+      while (table[slot] > 0 && groups[table[slot] - 1U].key != key)
+        slot = (slot + 1) % table.size();
+      if (table[slot] == 0) {
+        groups[count++] = {key};
+        table[slot] = static_cast<std::uint16_t>(count);
+      }
+      groupOf[i] = static_cast<std::uint16_t>(table[slot] - 1U);
+      ++groups[groupOf[i]].count;
+    }
+    std::uint16_t end = 0;
+    for (std::size_t g = 0; g < count; ++g) {
+      groups[g].end = end;
+      end = static_cast<std::uint16_t>(end + groups[g].count);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (isFinite(points[i])) order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
+    for (std::size_t g = 0; g < count; ++g) {
+      const CellFrame frame = hash.frame(groups[g].key);
+      const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
+      hash.visit(atoms_, frame, [&](const AtomRun& run) { visit(frame, members, run); });
+    }
+  }
+}
+
+void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) const {
+  for (std::size_t first = 0; first < points.size(); first += kChunk) {
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    some(points.subspan(first, count), out.subspan(first, count));
+  }
+}
+
+// In floats; where their rounding may count, in doubles.
+//
+// Rounding, in units u = 2^-24, of one term w K(q): lengths are in cell sides, a radius is at most
+// 2. The offset of an atom from the cell's centre is at most 2.5 and off by half its last place,
+// that of a point is 0.5 at most; with that of their difference, where it counts, each axis of d is
+// off by less than 5 u and d by less than 9 u, which moves W by 9 u |grad W|. q is off by less than
+// 6 u of itself, which moves W by 6 u |w K'| q = 3 u |grad W| |d| < 6 u |grad W|. K is rounded by
+// 2 kRounding u of itself (the gaussian's, of K + exp(-b), where exp(-b) is less than K or than
+// |grad W|), the weight and the product by 2 u, and the sum of n terms by n u of them all.
+void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) const {
+  const AtomLoops& loops = atomLoops();
+  const double rounding =
+      metaballs::withKernel(kernel_, []<class K>(K) { return 2.0 * K::kRounding; });
+  const float scale = 1 / fastest_;
+  std::array<double, kChunk> slopes{}, error;
+  error.fill(0x1p-24);
+  std::ranges::fill(out, FieldAt{});
+  visitCells(points, [&](const CellFrame& frame, std::span<const std::uint16_t> members,
+                         const AtomRun& run) {
+    std::array<EightSums, 8> eights;
+    const double perLength = 1 / frame.side;
+    for (; !members.empty();
+         members = members.subspan(std::min(members.size(), 8 * kLanes * std::size_t{1}))) {
+      const std::size_t count = std::min<std::size_t>(members.size(), eights.size() * kLanes);
+      const std::size_t blocks = (count + kLanes - 1) / kLanes;
+      for (std::size_t i = 0; i < blocks * kLanes; ++i) {
+        const Point3 p = frame.inward(points[members[std::min(i, count - 1)]]);
+        if (i % kLanes == 0) eights[i / kLanes] = {};
+        for (int k = 0; k < 3; ++k) eights[i / kLanes].p[k][i % kLanes] = p[k];
+      }
+      loops.add(kernel_, run, velocities_, scale, std::span(eights).first(blocks));
+      for (std::size_t i = 0; i < count; ++i) {
+        const EightSums& s = eights[i / kLanes];
+        const std::size_t k = i % kLanes;
+        const auto vector = [&](const Floats(&v)[3]) { return DVec3(v[0][k], v[1][k], v[2][k]); };
+        FieldAt& f = out[members[i]];
+        f.value += s.value[k];
+        f.gradient += perLength * vector(s.gradient);
+        f.change += perLength * fastest_ * s.change[k];
+        f.flow += perLength * fastest_ * vector(s.flow);
+        slopes[members[i]] += perLength * s.slopes[k];
+        error[members[i]] +=
+            0x1p-24 * ((15 + rounding) * s.slopes[k] +
+                       (2 + rounding + static_cast<double>(run.count)) * s.magnitude[k]);
+      }
+    }
+  });
+  std::array<DPoint3, kChunk> steep;
+  std::array<std::uint16_t, kChunk> which;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (slopes[i] > 0) out[i].flow /= slopes[i];
+    const bool flat = slopes[i] == 0 && out[i].value > -1;
+    if (error[i] < 5e-5 * std::max(1.0, std::abs(out[i].value)) && !flat) continue;
+    which[count] = static_cast<std::uint16_t>(i);
+    steep[count++] = points[i];
+  }
+  if (count == 0) return;
+  std::array<ExactSums, kChunk> sums{};
+  visitCells(std::span(steep).first(count),
+             [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
+               for (const std::uint16_t i : members)
+                 loops.addExactly(kernel_, atoms_, AtomList(run.number, run.count), velocities_,
+                                  steep[i], sums[i]);
+             });
+  for (std::size_t i = 0; i < count; ++i) {
+    const ExactSums& s = sums[i];
+    // At the middle of an atom, where no slope tells whose velocity counts, its field does.
+    const DVec3 flow = s.slopes > 0      ? s.flow / s.slopes
+                       : s.magnitude > 0 ? s.weighed / s.magnitude
+                                         : DVec3(0);
+    out[which[i]] = {s.value - 1, s.gradient, s.change, flow};
+  }
+}
+
+void AtomField::shape(std::span<const DPoint3> points, std::span<ShapeAt> out) const {
+  std::ranges::fill(out, ShapeAt{});
+  for (std::size_t first = 0; first < points.size(); first += kChunk) {
+    const auto some = points.subspan(first, std::min(kChunk, points.size() - first));
+    visitCells(some,
+               [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
+                 for (const std::uint16_t i : members) {
+                   const metaballs::FieldSample part = metaballs::loops().sample(
+                       kernel_, atoms_, some[i], AtomList(run.number, run.count));
+                   out[first + i].gradient += part.gradient;
+                   out[first + i].hessian += part.hessian;
+                 }
+               });
+  }
+}
+
+bool AtomField::seeds(std::uint64_t first, std::span<DPoint3> out) const {
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (!seed(first + i, out[i])) return false;
+  return true;
+}
+
+bool AtomField::seed(std::uint64_t number, DPoint3& out) const {
+  if (atoms_.empty()) return false;
+  Rng rng(hash(number));
+  for (int i = 0; i < 64; ++i) {
+    const Atom& atom = atoms_[rng.uniform(static_cast<std::uint32_t>(atoms_.size()))];
+    DPoint3 p =
+        DPoint3(atom.centre) + DVec3(uniformSphere({rng.uniform(), rng.uniform()})) *
+                                   static_cast<double>(std::cbrt(rng.uniform()) * atom.radius);
+    for (int k = 0; k < 8; ++k) {
+      FieldAt f;
+      some({&p, 1}, {&f, 1});
+      const double slope2 = lengthSquared(f.gradient);
+      if (!(std::abs(f.value) < 0.5 * atom.radius * std::sqrt(slope2))) break;
+      if (std::abs(f.value) < 1e-3) {
+        out = p;
+        return true;
+      }
+      p -= f.value / slope2 * f.gradient;
+    }
+  }
+  return false;
+}
+
+}  // namespace pbrt::surfels

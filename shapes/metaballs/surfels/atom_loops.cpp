@@ -1,0 +1,141 @@
+// Compiled once for each instruction set. Nothing here may call functions that are not inlined: the
+// linker would keep but one copy of them, for the best machine.
+
+#include "shapes/metaballs/surfels/atom_loops.h"
+
+#include "shapes/metaballs/atom_lanes.h"
+
+namespace pbrt::surfels {
+inline namespace PBRT_LANES {
+
+using metaballs::AtomLanes, metaballs::bits, metaballs::Doubles, metaballs::withKernel;
+
+static Floats squareRoot(Floats a) {
+#ifdef __AVX__
+  return reinterpret_cast<Floats>(__builtin_ia32_sqrtps256(a));
+#else
+  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
+#endif
+}
+
+// A support touches a cell if the point of the cell that is nearest to its centre is within its
+// radius.
+static std::size_t gather(std::span<const Atom> atoms, AtomList list, const CellFrame& cell,
+                          AtomRun& run) {
+  const double half = 0.5 * cell.side + cell.slack, inverseSide = 1 / cell.side;
+  std::size_t i = 0, n = run.count;
+  for (; i < list.size() && n + kLanes <= AtomRun::kMost; i += kLanes) {
+    const AtomLanes<Doubles> a(atoms, list, i, cell.centre);
+    const auto beyond = [&](const Doubles& x) {
+      return metaballs::positivePart(metaballs::abs(x) - half) * a.inverse;
+    };
+    const Doubles x = beyond(a.x), y = beyond(a.y), z = beyond(a.z);
+    unsigned mask = bits(x * x + y * y + z * z <= 1 + 0x1p-40);
+    if (list.size() - i < kLanes) mask &= (1U << (list.size() - i)) - 1;
+    if (mask == 0) continue;
+    const auto unit = [&](const Doubles& v) {
+      return __builtin_convertvector(v * inverseSide, Floats);
+    };
+    const Doubles inverse = a.inverse * cell.side;
+    const Floats fx = unit(a.x), fy = unit(a.y), fz = unit(a.z);
+    const Floats inverse2 = __builtin_convertvector(inverse * inverse, Floats);
+    const Floats weight = __builtin_convertvector(a.weight, Floats);
+    for (; mask != 0; mask &= mask - 1, ++n) {
+      const int k = __builtin_ctz(mask);
+      run.x[n] = fx[k], run.y[n] = fy[k], run.z[n] = fz[k];
+      run.inverse2[n] = inverse2[k];
+      run.weight[n] = weight[k];
+      run.number[n] = list[i + static_cast<std::size_t>(k)];
+    }
+  }
+  run.count = n;
+  return std::min(i, list.size());
+}
+
+// W = w K(q) with q = |d|^2 / h^2 and d = p - a: grad W = 2 w K'(q) / h^2 d. The atom's centre a
+// moves by v, so that dW/dt = -grad W . v.
+template <class K, bool kMoves>
+void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, EightSums& sums) {
+  EightSums s = sums;
+  for (std::size_t i = 0; i < run.count; ++i) {
+    const Floats x = s.p[0] - run.x[i], y = s.p[1] - run.y[i], z = s.p[2] - run.z[i];
+    const Floats r2 = x * x + y * y + z * z, q = r2 * run.inverse2[i];
+    if (bits(q < 1) == 0) continue;
+    const Floats value = run.weight[i] * K::value(q);
+    const Floats k = (2 * run.weight[i] * run.inverse2[i]) * K::slope(q);
+    s.value += value;
+    s.magnitude += metaballs::abs(value);
+    s.gradient[0] += k * x, s.gradient[1] += k * y, s.gradient[2] += k * z;
+    const Floats slope = metaballs::abs(k) * squareRoot(r2);
+    s.slopes += slope;
+    if constexpr (kMoves) {
+      const Vec3 v = scale * velocities[run.number[i]];
+      s.change -= k * (v.x * x + v.y * y + v.z * z);
+      s.flow[0] += v.x * slope, s.flow[1] += v.y * slope, s.flow[2] += v.z * slope;
+    }
+  }
+  sums = s;
+}
+
+// Atoms are in the lanes.
+template <class K>
+void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
+                const DPoint3& p, ExactSums& sums) {
+  using metaballs::abs;
+  using V = Doubles;
+  V value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, change{};
+  V fx{}, fy{}, fz{}, wx{}, wy{}, wz{};
+  for (std::size_t i = 0; i < list.size(); i += kLanes) {
+    const AtomLanes<V> a(atoms, list, i, p);  // its x is that of -d
+    const V inverse2 = a.inverse * a.inverse, r2 = a.x * a.x + a.y * a.y + a.z * a.z;
+    const V q = r2 * inverse2;
+    const V own = a.weight * K::value(q), size = abs(own);
+    value += own;
+    magnitude += size;
+    const V k = -2 * a.weight * inverse2 * K::slope(q);
+    gx += k * a.x, gy += k * a.y, gz += k * a.z;
+    V slope{}, vx{}, vy{}, vz{};
+    for (int n = 0; n < kLanes; ++n) {
+      slope[n] = std::sqrt(r2[n]);
+      if (velocities.empty() || i + n >= list.size()) continue;
+      const Vec3& v = velocities[list[i + n]];
+      vx[n] = v.x, vy[n] = v.y, vz[n] = v.z;
+    }
+    slope *= abs(k);
+    slopes += slope;
+    change -= k * (vx * a.x + vy * a.y + vz * a.z);
+    fx += slope * vx, fy += slope * vy, fz += slope * vz;
+    wx += size * vx, wy += size * vy, wz += size * vz;
+  }
+  const V u = metaballs::sums(value, magnitude, gx, gy, gz, slopes, change, V{});
+  const V v = metaballs::sums(fx, fy, fz, wx, wy, wz, V{}, V{});
+  sums.value += u[0];
+  sums.magnitude += u[1];
+  sums.gradient += DVec3(u[2], u[3], u[4]);
+  sums.slopes += u[5];
+  sums.change += u[6];
+  sums.flow += DVec3(v[0], v[1], v[2]);
+  sums.weighed += DVec3(v[3], v[4], v[5]);
+}
+
+extern const AtomLoops kAtomLoops;
+const AtomLoops kAtomLoops{
+    gather,
+    [](Kernel kernel, const AtomRun& run, std::span<const Vec3> velocities, float scale,
+       std::span<EightSums> sums) {
+      withKernel(kernel, [&]<class K>(K) {
+        for (EightSums& eight : sums)
+          if (velocities.empty())
+            add<K, false>(run, velocities, scale, eight);
+          else
+            add<K, true>(run, velocities, scale, eight);
+      });
+    },
+    [](Kernel kernel, std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
+       const DPoint3& p, ExactSums& sums) {
+      withKernel(kernel, [&]<class K>(K) { addExactly<K>(atoms, list, velocities, p, sums); });
+    }};
+
+}  // namespace PBRT_LANES
+}  // namespace pbrt::surfels

@@ -1,0 +1,70 @@
+#pragma once
+// The inner loops of the field of moving atoms, for each instruction set as metaballs/loops.h.
+
+#include "shapes/metaballs/loops.h"
+
+namespace pbrt::surfels {
+
+using metaballs::Atom;
+using metaballs::AtomList;
+using metaballs::Floats;
+using metaballs::Kernel;
+using metaballs::kLanes;
+
+// A cell of a grid whose sides are the unit of length.
+struct CellFrame {
+  DPoint3 centre{};
+  double side = 1;
+  double slack = 0;  // how far beyond its faces the points asked for in it may lie
+
+  Point3 inward(const DPoint3& p) const { return Point3((p - centre) / side); }
+};
+
+// Some atoms, which touch a cell, in its frame.
+struct AtomRun {
+  static constexpr std::size_t kMost = 256;
+  std::size_t count = 0;
+  float x[kMost], y[kMost], z[kMost];
+  float inverse2[kMost];  // 1 / h^2
+  float weight[kMost];
+  std::uint32_t number[kMost];
+};
+
+// What the atoms add to the field at eight points of a cell, in its frame. One point a lane: its
+// sums have the order of the atoms whatever the other points are.
+struct alignas(metaballs::kLaneAlignment) EightSums {
+  Floats p[3];
+  Floats value{}, magnitude{};  // of w K and of |w K|
+  Floats gradient[3] = {};
+  Floats slopes{};      // of |grad W|
+  Floats change{};      // of -grad W . v
+  Floats flow[3] = {};  // of |grad W| v
+};
+
+// The same at one point, in double and in the units of space.
+struct ExactSums {
+  double value = 0, magnitude = 0;
+  DVec3 gradient{};
+  double slopes = 0;
+  double change = 0;
+  DVec3 flow{};
+  DVec3 weighed{};  // of |w K| v
+};
+
+struct AtomLoops {
+  // Puts those of the list whose supports touch the cell at the end of the run, until it is full or
+  // nearly so. How many of the list were looked at.
+  std::size_t (*gather)(std::span<const Atom>, AtomList, const CellFrame&, AtomRun&);
+  // `velocities`: of all atoms, or empty; they are multiplied by `scale`.
+  void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale,
+              std::span<EightSums>);
+  void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
+                     const DPoint3&, ExactSums&);
+};
+
+// Those that this machine supports: the portable ones first, the best last.
+std::span<const AtomLoops* const> allAtomLoops();
+// The best.
+const AtomLoops& atomLoops();
+
+}  // namespace pbrt::surfels

@@ -1,0 +1,94 @@
+// What the field of moving atoms costs: to set it up for a frame, and a point on its surface.
+
+#include <benchmark/benchmark.h>
+
+#include "shapes/metaballs/surfels/atom_field.h"
+#include "tests/shapes/metaballs/sets.h"
+
+namespace pbrt::surfels {
+namespace {
+
+using metaballs::Kernel;
+
+constexpr std::size_t kPoints = 16384;
+
+std::vector<Vec3> someVelocities(std::size_t count) {
+  metaballs::test::Random random(5);
+  std::vector<Vec3> v(count);
+  for (Vec3& one : v) one = Vec3(random.cube());
+  return v;
+}
+
+// A deep box of jittered atoms; the kernel's supports are two of their distances.
+struct Water {
+  metaballs::Field fluid;
+  std::vector<Vec3> velocities;
+  AtomField field;
+
+  Water(Kernel kernel, std::size_t count)
+      : fluid(metaballs::test::fluid(
+            kernel, static_cast<int>(std::cbrt(static_cast<double>(count)) + 0.5), 0.25,
+            static_cast<int>(std::cbrt(static_cast<double>(count)) + 0.5))),
+        velocities(someVelocities(fluid.atoms().size())) {
+    set();
+  }
+  void set() { field.set(fluid.kernel(), fluid.atoms(), velocities); }
+};
+
+// In the order of small cells, as a simulation keeps its surfels.
+std::vector<DPoint3> pointsOn(const AtomField& field) {
+  std::vector<DPoint3> points(kPoints);
+  if (!field.seeds(0, points)) std::abort();
+  const auto cell = [](const DPoint3& p) {
+    const DVec3 c = glm::floor(p * 2.0);
+    return std::tuple(c.z, c.y, c.x);
+  };
+  std::ranges::sort(points, {}, cell);
+  return points;
+}
+
+void set(benchmark::State& state) {
+  Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)));
+  for (auto _ : state) water.set();
+}
+BENCHMARK(set)->Arg(1000)->Arg(1500)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(
+    benchmark::kMillisecond);
+
+void at(benchmark::State& state) {
+  const Water water(static_cast<Kernel>(state.range(1)), static_cast<std::size_t>(state.range(0)));
+  const std::vector<DPoint3> points = pointsOn(water.field);
+  std::vector<FieldAt> out(kPoints);
+  for (auto _ : state) water.field.at(points, out);
+  state.counters["ns/point"] = benchmark::Counter(
+      kPoints * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(at)
+    ->ArgsProduct({{1500}, {0, 1, 2, 3}})
+    ->Args({100000, 0})
+    ->Unit(benchmark::kMillisecond);
+
+void shape(benchmark::State& state) {
+  const Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)));
+  const std::vector<DPoint3> points = pointsOn(water.field);
+  std::vector<ShapeAt> out(kPoints);
+  for (auto _ : state) water.field.shape(points, out);
+  state.counters["ns/point"] = benchmark::Counter(
+      kPoints * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(shape)->Arg(1500)->Unit(benchmark::kMillisecond);
+
+void seeds(benchmark::State& state) {
+  const Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)));
+  std::vector<DPoint3> points(256);
+  std::uint64_t first = 0;
+  for (auto _ : state) {
+    water.field.seeds(first, points);
+    first += points.size();
+  }
+  state.counters["ns/seed"] = benchmark::Counter(
+      256e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+BENCHMARK(seeds)->Arg(1500)->Arg(100000)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace pbrt::surfels
