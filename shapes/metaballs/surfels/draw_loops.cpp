@@ -10,7 +10,7 @@
 namespace pbrt::surfels {
 inline namespace PBRT_LANES {
 
-using metaballs::abs, metaballs::bits, metaballs::max, metaballs::min, metaballs::square;
+using metaballs::bits, metaballs::max, metaballs::min, metaballs::square;
 
 static Floats squareRoot(Floats a) {
 #ifdef __AVX__
@@ -36,10 +36,14 @@ static Vectors operator+(const Vectors& a, const Vectors& b) {
 static Vectors operator*(const Floats& s, const Vectors& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
-static Vectors bent(const Disc& disc, const Vectors& u) {
+// The gradient of a disc's F at p + u; F is u . (n + gradient) / 2 there.
+static Vectors gradient(const Disc& disc, const Vectors& u) {
   const auto& [xx, yy, zz, xy, xz, yz] = disc.bend;
-  return {xx * u.x + xy * u.y + xz * u.z, xy * u.x + yy * u.y + yz * u.z,
-          xz * u.x + yz * u.y + zz * u.z};
+  return {disc.n.x + (xx * u.x + xy * u.y + xz * u.z), disc.n.y + (xy * u.x + yy * u.y + yz * u.z),
+          disc.n.z + (xz * u.x + yz * u.y + zz * u.z)};
+}
+static Floats twiceValue(const Disc& disc, const Vectors& u, const Vectors& gradient) {
+  return dot(u, Vectors{disc.n.x + gradient.x, disc.n.y + gradient.y, disc.n.z + gradient.z});
 }
 
 // A ball of radius R about v from the apex meets a cone of angle a only if it reaches over the
@@ -65,11 +69,14 @@ static std::size_t narrow(const Bound& bound, std::span<const Balls> balls, std:
 }
 
 // Along a ray from its point nearest to p, u + s d with u . d = 0, F is a quadratic,
-// c + b s + a s^2, of slope -sqrt(b^2 - 4 a c) at the root where the ray comes from the front.
+// c + b s + a s^2, of slope -sqrt(b^2 - 4 a c) at the root where the ray comes from the front:
+// s = 2 c / (sqrt(b^2 - 4 a c) - b).
 static void look(const Rays& rays, const Disc* discs, std::span<const std::uint32_t> list,
                  std::uint32_t* near, Seen& seen) {
   const Vectors o{rays.ox, rays.oy, rays.oz}, d{rays.dx, rays.dy, rays.dz};
-  Floats first = Floats{} + kInfinity;
+  const Floats dxx = d.x * d.x, dyy = d.y * d.y, dzz = d.z * d.z;
+  const Floats dxy = 2 * d.x * d.y, dxz = 2 * d.x * d.z, dyz = 2 * d.y * d.z;
+  Floats first = rays.tMax;
   std::size_t count = 0;
   for (const std::uint32_t i : list) {
     const Disc& disc = discs[i];
@@ -79,49 +86,45 @@ static void look(const Rays& rays, const Disc* discs, std::span<const std::uint3
     const Floats room = disc.rim2 - dot(u, u);
     if (bits(room > 0) == 0) continue;
     near[count++] = i;
-    const Vectors bu = bent(disc, u);
-    const Floats a2 = dot(d, bent(disc, d)), b = dot(d, disc.n) + dot(d, bu);
-    const Floats c = dot(u, disc.n) + 0.5F * dot(u, bu);
-    // A ray that but grazes the surface does not meet it (cosines below 0.003).
-    const Floats discriminant = b * b - 2 * a2 * c;
-    const Floats q = abs(b) + squareRoot(max(discriminant, Floats{}));
-    // Either form of the root where it does not cancel.
-    const Floats s = (b > 0 ? -q : 2 * c) / (b > 0 ? a2 : q);
+    const auto& [xx, yy, zz, xy, xz, yz] = disc.bend;
+    const Vectors g = gradient(disc, u);
+    const Floats a2 = xx * dxx + yy * dyy + zz * dzz + xy * dxy + xz * dxz + yz * dyz;
+    const Floats b = dot(g, d), c2 = twiceValue(disc, u, g);
+    const Floats discriminant = b * b - a2 * c2;
+    const Floats s = c2 / (squareRoot(discriminant) - b);
     const Floats t = middle + s;
-    const auto met =
-        (discriminant > 1e-5F) & (s * s < room) & (t >= rays.tMin) & (t <= rays.tMax) & (t < first);
+    // A ray that but grazes the surface does not meet it (cosines below 0.003).
+    const auto met = (discriminant > 1e-5F) & (s * s < room) & (t >= rays.tMin) & (t < first);
     first = met ? t : first;
   }
-  seen.t = first;
-  if (bits(first < kInfinity) == 0) return;
+  const auto met = first < rays.tMax;
+  seen.t = Floats{} + kInfinity;
+  if (bits(met) == 0) return;
 
   // The surface about the nearest point is where the weighted mean of the discs' F is zero, one
   // step of Newton's from there. The weight falls to zero on a spheroid about p, half as thick as
   // it is wide: what lies closely behind has no part in it, nor has what faces away.
-  const Floats t = first < kInfinity ? first : Floats{};
-  const Vectors x = o + t * d;
+  const Vectors x = o + (met ? first : Floats{}) * d;
   Floats weights{}, values{}, most{};
   Vectors n{};
   Numbers surfel{};
   for (std::size_t k = 0; k < count; ++k) {
     const Disc& disc = discs[near[k]];
     const Vectors u{x.x - disc.p.x, x.y - disc.p.y, x.z - disc.p.z};
-    const Vectors bu = bent(disc, u);
-    const Floats value = dot(u, disc.n) + 0.5F * dot(u, bu);
-    const Vectors gradient{disc.n.x + bu.x, disc.n.y + bu.y, disc.n.z + bu.z};
+    const Vectors g = gradient(disc, u);
+    const Floats value = 0.5F * twiceValue(disc, u, g);
     const Floats inside = 1 - (dot(u, u) + 3 * value * value) * disc.inverse2;
-    const auto counts = (inside > 0) & (dot(gradient, d) < 0);
+    const auto counts = (inside > 0) & (dot(g, d) < 0);
     const Floats weight = counts ? inside * inside : Floats{};
     weights += weight;
     values += weight * value;
-    n = n + weight * gradient;
+    n = n + weight * g;
     surfel = weight > most ? Numbers{} + near[k] : surfel;
     most = max(most, weight);
   }
   // At a grazing angle the step is kept short.
   const Floats step = values / max(-dot(n, d), 0.1F * weights);
-  seen.t = (first < kInfinity) & (weights > 0) ? max(rays.tMin, min(rays.tMax, first + step))
-                                               : Floats{} + kInfinity;
+  seen.t = met & (weights > 0) ? max(rays.tMin, min(rays.tMax, first + step)) : seen.t;
   seen.nx = n.x, seen.ny = n.y, seen.nz = n.z;
   seen.surfel = surfel;
 }
