@@ -100,7 +100,6 @@ double Cover::pixelsPerArea(Point2i resolution) const {
 void Cover::cover(std::uint32_t number, std::vector<Surfel> surfels) {
   Skin& skin = skins_[number];
   skin.firstBase = static_cast<std::uint32_t>(bases_.size());
-  skin.discs.set(surfels, DPoint3(0));
   std::vector<std::optional<SurfaceInteraction>> points(surfels.size());
   parallelFor((surfels.size() + kShare - 1) / kShare, [&](std::size_t k) {
     for (std::size_t i = k * kShare; i < std::min((k + 1) * kShare, surfels.size()); ++i)
@@ -108,6 +107,7 @@ void Cover::cover(std::uint32_t number, std::vector<Surfel> surfels) {
   });
   const auto first = std::ranges::find_if(points, [](const auto& p) { return p.has_value(); });
   if (first == points.end()) return;
+  skin.discs.set(surfels, DPoint3(0));
   skin.anywhere = **first;
   skin.reversed =
       glm::dot((*first)->n, surfels[static_cast<std::size_t>(first - points.begin())].n) < 0;
@@ -168,9 +168,8 @@ void Cover::look(std::span<const Ray* const> rays, int width, std::span<Hit> hit
   for (const Ray* ray : rays) copies.push_back(*ray);
   std::ranges::fill(hits, Hit());
   fragments.resize(rays.size());
-  if (!bases_.empty()) beam.set(copies, width);
+  beam = Beam(copies, width);
   for (const Skin& skin : skins_) {
-    if (!skin.anywhere.material) continue;
     skin.discs.draw(beam, fragments);
     for (std::size_t i = 0; i < rays.size(); ++i)
       if (const Fragment& f = fragments[i]; f.t < hits[i].t) {

@@ -1,6 +1,5 @@
 #include "shapes/metaballs/surfels/still_field.h"
 
-#include "core/base/lowdiscrepancy.h"
 #include "core/base/parallel.h"
 #include "core/base/rng.h"
 #include "core/plugin/implicit_cells.h"
@@ -34,6 +33,14 @@ double quantile(std::vector<double>& values, double share) {
   return *nth;
 }
 
+// Appends the halves across the longest edge.
+void halve(const Bounds3& box, std::vector<Bounds3>& halves) {
+  const Vec3 edges = box.diagonal();
+  const int axis = edges.x >= edges.y && edges.x >= edges.z ? 0 : edges.y >= edges.z ? 1 : 2;
+  halves.insert(halves.end(), 2, box);
+  halves.back().lo[axis] = (halves.end() - 2)->hi[axis] = box.centre()[axis];
+}
+
 }  // namespace
 
 StillField::StillField(const ImplicitField& field, const Transform& toSpace, std::size_t cells)
@@ -41,51 +48,72 @@ StillField::StillField(const ImplicitField& field, const Transform& toSpace, std
       toSpace_(toSpace),
       toField_(toSpace.inverse()),
       bounds_(toSpace.bounds(field.bounds())) {
-  const std::vector<Bounds3> shell = shellOf(field, cells);
-  std::vector<std::vector<Patch>> parts(shell.size());
-  parallelFor((shell.size() + kShare - 1) / kShare, [&](std::size_t k) {
-    for (std::size_t i = k * kShare; i < std::min((k + 1) * kShare, shell.size()); ++i)
-      parts[i] = patchesOf(shell[i]);
-  });
-  double area = 0;
-  for (const std::vector<Patch>& part : parts)
-    for (Patch patch : part) {
-      patch.areaSoFar = area += patch.areaSoFar;
-      patches_.push_back(patch);
+  // Boxes that do not tell how the surface runs through them are halved as long as they are few.
+  constexpr int kHalvings = 30;
+  std::vector<Bounds3> boxes = shellOf(field, cells);
+  for (int i = 0; i <= kHalvings && !boxes.empty(); ++i) {
+    const bool last = i == kHalvings || boxes.size() > 2 * cells;
+    std::vector<Part> parts((boxes.size() + kShare - 1) / kShare);
+    parallelFor(parts.size(), [&](std::size_t k) {
+      for (std::size_t b = k * kShare; b < std::min((k + 1) * kShare, boxes.size()); ++b)
+        if (!addPatches(boxes[b], last, parts[k].patches)) halve(boxes[b], parts[k].halves);
+    });
+    boxes.clear();
+    for (const Part& part : parts) {
+      patches_.insert(patches_.end(), part.patches.begin(), part.patches.end());
+      boxes.insert(boxes.end(), part.halves.begin(), part.halves.end());
     }
+  }
+  double area = 0;
+  for (Patch& patch : patches_) patch.areaSoFar = area += patch.areaSoFar;
   if (patches_.empty())
     bounds_ = Bounds3();
   else
     measure();
 }
 
-// Lines along the axis to which the surface is steepest, spread over the face of the box. Within so
-// small a box the field is taken to be linear: where a line meets its zero, within the box, the
-// surface has a part of area (face of the line) / |n_axis|. A map M takes a piece of area dA and
-// unit normal n to |det M| |M^-T n| dA.
-std::vector<StillField::Patch> StillField::patchesOf(const Bounds3& box) const {
-  const DPoint3 lo(box.lo), edges(DPoint3(box.hi) - lo), centre = lo + 0.5 * edges;
-  const FieldPoint f = field_.at(centre);
-  const DVec3 g = f.gradient, steep = glm::abs(g);
-  if (!std::isfinite(f.value) || !isFinite(g) || !(glm::length(g) > 0)) return {};
-  const int a = steep.x >= steep.y && steep.x >= steep.z ? 0 : steep.y >= steep.z ? 1 : 2;
+// Where the derivative along an axis keeps its sign, lines along that axis meet the surface once at
+// most. Some are spread over the face of the box: each stands for a part of the surface of area
+// (face of the line) / |n_axis|. A map M takes a piece of area dA and unit normal n to
+// |det M| |M^-T n| dA. False: there is no such axis, and `whatever` did not ask to take any.
+bool StillField::addPatches(const Bounds3& box, bool whatever, std::vector<Patch>& patches) const {
+  const DPoint3 lo(box.lo), hi(box.hi), centre = 0.5 * lo + 0.5 * hi, edges = hi - lo;
+  const FieldRange range = field_.over(lo, hi);
+  if (!range.value.contains(0)) return true;
+  const DVec3 steep = glm::abs(field_.at(centre).gradient);
+  int a = -1;
+  for (int i = 0; i < 3; ++i)
+    if ((whatever || !range.gradient[i].contains(0)) && (a < 0 || steep[i] > steep[a])) a = i;
+  if (a < 0) return false;
   const int b = (a + 1) % 3, c = (a + 2) % 3;
-  const DVec3 n = g / glm::length(g);
   const double width = edges[b] / kAcross, height = edges[c] / kAcross;
-  const double growth =
-      std::abs(glm::determinant(glm::dmat3(toSpace_.matrix()))) * glm::length(toSpace_.normal(n));
-  std::vector<Patch> patches;
+  const double growth = std::abs(glm::determinant(glm::dmat3(toSpace_.matrix())));
   for (int i = 0; i < kAcross; ++i)
     for (int j = 0; j < kAcross; ++j) {
-      DPoint3 p = lo;
-      p[b] += (i + 0.5) * width, p[c] += (j + 0.5) * height;
-      p[a] = centre[a] - (f.value + g[b] * (p[b] - centre[b]) + g[c] * (p[c] - centre[c])) / g[a];
-      if (!(p[a] >= box.lo[a] && p[a] <= box.hi[a])) continue;
-      if (const auto on = onSurface(p, glm::length(edges)))
-        patches.push_back({*on, a, static_cast<float>(width), static_cast<float>(height),
-                           growth * width * height / std::abs(n[a])});
+      DPoint3 from = lo, to = lo;
+      from[b] = to[b] = lo[b] + (i + 0.5) * width;
+      from[c] = to[c] = lo[c] + (j + 0.5) * height;
+      to[a] = hi[a];
+      const std::optional<DPoint3> p = between(from, to);
+      if (!p) continue;
+      const DVec3 g = field_.at(*p).gradient;
+      const double area =
+          growth * width * height * glm::length(toSpace_.normal(g)) / std::abs(g[a]);
+      if (std::isfinite(area))
+        patches.push_back({*p, a, static_cast<float>(width), static_cast<float>(height), area});
     }
-  return patches;
+  return true;
+}
+
+// Where the field changes its sign on the way, by bisection; none if its ends have the same.
+std::optional<DPoint3> StillField::between(DPoint3 from, DPoint3 to) const {
+  const double start = field_.at(from).value, end = field_.at(to).value;
+  if (!(start < 0 ? end >= 0 : end < 0)) return {};
+  for (int i = 0; i < 40; ++i) {
+    const DPoint3 middle = 0.5 * from + 0.5 * to;
+    ((field_.at(middle).value < 0) == (start < 0) ? from : to) = middle;
+  }
+  return 0.5 * from + 0.5 * to;
 }
 
 // Grain: the radius of curvature that a twentieth of the surface goes below.

@@ -41,8 +41,15 @@ class StillField final : public MovingField {
     double areaSoFar = 0;         // in space; of all patches up to and including this one
   };
 
-  std::vector<Patch> patchesOf(const Bounds3& box) const;
+  // What comes of some boxes.
+  struct Part {
+    std::vector<Patch> patches;
+    std::vector<Bounds3> halves;
+  };
+
+  bool addPatches(const Bounds3& box, bool whatever, std::vector<Patch>& patches) const;
   void measure();
+  std::optional<DPoint3> between(DPoint3 from, DPoint3 to) const;
   std::optional<DPoint3> onSurface(DPoint3 p, double within) const;
   // How far a point of the field's space is beyond the field's bounds, along an axis.
   double distanceBeyond(const DPoint3& p) const;
