@@ -2,6 +2,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include <numeric>
+
 #include "shapes/metaballs/surfels/atom_field.h"
 #include "tests/shapes/metaballs/sets.h"
 
@@ -25,11 +27,12 @@ struct Water {
   std::vector<Vec3> velocities;
   AtomField field;
 
-  Water(Kernel kernel, std::size_t count)
+  Water(Kernel kernel, std::size_t count, HashKind hash = HashKind::traditional)
       : fluid(metaballs::test::fluid(
             kernel, static_cast<int>(std::cbrt(static_cast<double>(count)) + 0.5), 0.25,
             static_cast<int>(std::cbrt(static_cast<double>(count)) + 0.5))),
-        velocities(someVelocities(fluid.atoms().size())) {
+        velocities(someVelocities(fluid.atoms().size())),
+        field(hash) {
     set();
   }
   void set() { field.set(fluid.kernel(), fluid.atoms(), velocities); }
@@ -48,22 +51,43 @@ std::vector<DPoint3> pointsOn(const AtomField& field) {
 }
 
 void set(benchmark::State& state) {
-  Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)));
+  Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)),
+              static_cast<HashKind>(state.range(1)));
   for (auto _ : state) water.set();
 }
-BENCHMARK(set)->Arg(1000)->Arg(1500)->Arg(10000)->Arg(100000)->Arg(1000000)->Unit(
-    benchmark::kMillisecond);
+// The second argument: 0 the traditional hash, 1 the inverted one.
+BENCHMARK(set)
+    ->ArgsProduct({{1000, 1500, 10000, 100000}, {0, 1}})
+    ->Args({1000000, 0})
+    ->Unit(benchmark::kMillisecond);
+
+// The same without seeds.
+void build(benchmark::State& state) {
+  const Water water(Kernel::poly6, static_cast<std::size_t>(state.range(0)));
+  std::vector<std::uint32_t> numbers(water.fluid.atoms().size());
+  std::iota(numbers.begin(), numbers.end(), 0U);
+  AtomHash hash;
+  for (auto _ : state)
+    hash.build(water.fluid.atoms(), numbers, 2, static_cast<HashKind>(state.range(1)));
+}
+BENCHMARK(build)
+    ->ArgsProduct({{1000, 1500, 10000, 100000}, {0, 1}})
+    ->Args({1000000, 0})
+    ->Unit(benchmark::kMillisecond);
 
 void at(benchmark::State& state) {
-  const Water water(static_cast<Kernel>(state.range(1)), static_cast<std::size_t>(state.range(0)));
+  const Water water(static_cast<Kernel>(state.range(1)), static_cast<std::size_t>(state.range(0)),
+                    static_cast<HashKind>(state.range(2)));
   const std::vector<DPoint3> points = pointsOn(water.field);
   std::vector<FieldAt> out(kPoints);
   for (auto _ : state) water.field.at(points, out);
   state.SetItemsProcessed(state.iterations() * kPoints);
 }
+// Arguments: atoms, kernel, hash.
 BENCHMARK(at)
-    ->ArgsProduct({{1500}, {0, 1, 2, 3}})
-    ->Args({100000, 0})
+    ->ArgsProduct({{1500}, {0, 1, 2, 3}, {0, 1}})
+    ->Args({100000, 0, 0})
+    ->Args({100000, 0, 1})
     ->Unit(benchmark::kMillisecond);
 
 void shape(benchmark::State& state) {

@@ -4,11 +4,11 @@
 
 namespace pbrt::surfels {
 
-CellFrame AtomHash::frame(const CellKey& cell) const {
+CellFrame AtomHash::frame(const CellKey& key) const {
   CellFrame f;
   f.side = side_;
-  f.centre = side_ * (DVec3(static_cast<double>(cell.x), static_cast<double>(cell.y),
-                            static_cast<double>(cell.z)) +
+  f.centre = side_ * (DVec3(static_cast<double>(key.x), static_cast<double>(key.y),
+                            static_cast<double>(key.z)) +
                       0.5);
   // By rounding, a point may be taken for one of the next cell.
   f.slack = 0x1p-20 * side_ +
@@ -16,36 +16,51 @@ CellFrame AtomHash::frame(const CellKey& cell) const {
   return f;
 }
 
-void AtomHash::grow() {
-  table_.assign(2 * table_.size(), 0);
-  for (std::uint32_t i = 0; i < bins_.size(); ++i) table_[slotOf(bins_[i].key)] = i + 1;
+void AtomHash::enter(std::uint32_t number, const CellKey& key) {
+  std::size_t slot = slotOf(key);
+  if (table_[slot] == 0) {
+    cells_.push_back({key});
+    table_[slot] = static_cast<std::uint32_t>(cells_.size());
+    if (2 * cells_.size() > table_.size()) {
+      table_.assign(2 * table_.size(), 0);
+      for (std::uint32_t i = 0; i < cells_.size(); ++i) table_[slotOf(cells_[i].key)] = i + 1;
+      slot = slotOf(key);
+    }
+  }
+  Cell& cell = cells_[table_[slot] - 1];
+  ++cell.count;
+  entries_.push_back({number, table_[slot] - 1});
 }
 
-// A counting sort: each bin's atoms are counted, get a run of their own, and are put there.
+// A counting sort: each cell's atoms are counted, get a run of their own, and are put there.
 void AtomHash::build(std::span<const Atom> atoms, std::span<const std::uint32_t> numbers,
-                     double largest) {
-  side_ = largest / kCellsToBin;
-  bins_.clear();
+                     double largest, HashKind kind) {
+  kind_ = kind;
+  float extent = 0;
+  for (const std::uint32_t j : numbers)
+    for (int i = 0; i < 3; ++i) extent = std::max(extent, std::abs(atoms[j].centre[i]));
+  side_ = std::max(largest, 0x1p-50 * extent);  // cells are told apart by doubles
+  cells_.clear();
+  entries_.clear();
   table_.assign(std::max<std::size_t>(table_.size(), 64), 0);
-  binOf_.resize(numbers.size());
-  numbers_.resize(numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const CellKey key = keyAt(DPoint3(atoms[numbers[i]].centre), 1 / largest);
-    std::size_t slot = slotOf(key);
-    if (table_[slot] == 0) {
-      bins_.push_back({key});
-      if (2 * bins_.size() > table_.size()) {
-        grow();
-        slot = slotOf(key);
-      }
-      table_[slot] = static_cast<std::uint32_t>(bins_.size());
+  for (const std::uint32_t j : numbers) {
+    const DPoint3 p(atoms[j].centre);
+    if (kind == HashKind::traditional) {
+      enter(j, cellAt(p));
+      continue;
     }
-    binOf_[i] = table_[slot] - 1;
-    ++bins_[binOf_[i]].count;
+    visitAbout(cellAt(p), [&](const CellKey& key) {
+      const CellFrame cell = frame(key);
+      const DVec3 beyond =
+          glm::max(glm::abs(p - cell.centre) - (0.5 * side_ + cell.slack), DVec3(0));
+      if (lengthSquared(beyond) <= sqr(static_cast<double>(atoms[j].radius))) enter(j, key);
+    });
   }
+  numbers_.resize(entries_.size());
   std::uint32_t end = 0;
-  for (Bin& bin : bins_) bin.first = end += bin.count;
-  for (std::size_t i = numbers.size(); i-- > 0;) numbers_[--bins_[binOf_[i]].first] = numbers[i];
+  for (Cell& cell : cells_) cell.first = end += cell.count;
+  for (std::size_t i = entries_.size(); i-- > 0;)
+    numbers_[--cells_[entries_[i].cell].first] = entries_[i].number;
 }
 
 }  // namespace pbrt::surfels

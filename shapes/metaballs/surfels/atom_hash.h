@@ -22,28 +22,32 @@ struct CellKey {
   }
 };
 
-// The traditional spatial hash (Teschner et al. 2003): an atom is in the one bin that holds its
-// centre, and a question looks into the bins about it. It keeps numbers of atoms alone; those of
-// the inside, for which nobody asks, cost no more than being counted.
+enum class HashKind : std::uint8_t {
+  // An atom is in the one cell that holds its centre; a question looks into 27 (Teschner et al.
+  // 2003). What is inside a fluid, where nobody asks, costs no more than being counted.
+  traditional,
+  // An atom is in every cell that its support touches, about 20; a question looks into one (van
+  // Kooten et al. 2007).
+  inverted
+};
+
+// It keeps numbers of atoms alone, cell by cell.
 class AtomHash {
  public:
-  // Of the atoms with these numbers, whose radii are at most `largest`. Memory is used again.
-  void build(std::span<const Atom> atoms, std::span<const std::uint32_t> numbers, double largest);
+  // Of the atoms with these numbers, whose radii are at most `largest`: that is a cell's side, too.
+  // Memory is used again.
+  void build(std::span<const Atom> atoms, std::span<const std::uint32_t> numbers, double largest,
+             HashKind kind = HashKind::traditional);
 
   // `p` is finite.
   CellKey cellAt(const DPoint3& p) const { return keyAt(p, 1 / side_); }
-  CellFrame frame(const CellKey& cell) const;
-  // Calls visit(run) until all atoms whose supports touch the cell were in a run, in an order that
-  // depends on the cell alone.
+  // Calls visit(frame, run) until all atoms whose supports touch the cell were in a run, in an
+  // order that depends on the cell alone.
   template <class Visit>
-  void visit(std::span<const Atom> atoms, const CellFrame& cell, const Visit& visit) const;
+  void visit(std::span<const Atom> atoms, const CellKey& key, const Visit& visit) const;
 
  private:
-  // Cells along a bin's side, which is the largest radius: the supports that touch a cell have
-  // their centres in its bin or the 26 about it.
-  static constexpr int kCellsToBin = 1;
-
-  struct Bin {
+  struct Cell {
     CellKey key;
     std::uint32_t first = 0, count = 0;  // in numbers_
   };
@@ -53,51 +57,66 @@ class AtomHash {
     return {static_cast<std::int64_t>(k.x), static_cast<std::int64_t>(k.y),
             static_cast<std::int64_t>(k.z)};
   }
-  // Where the bin is in the table, or where it would be.
+  // Where the cell is in the table, or where it would be.
   std::size_t slotOf(const CellKey& key) const {
     const std::size_t mask = table_.size() - 1;
     std::size_t slot = key.hash() & mask;
-    while (table_[slot] > 0 && bins_[table_[slot] - 1].key != key) slot = (slot + 1) & mask;
+    while (table_[slot] > 0 && cells_[table_[slot] - 1].key != key) slot = (slot + 1) & mask;
     return slot;
   }
-  void grow();
+  CellFrame frame(const CellKey& key) const;
+  void enter(std::uint32_t number, const CellKey& key);
+  // Calls visit(key) for a cell and the 26 about it.
+  template <class Visit>
+  static void visitAbout(const CellKey& key, const Visit& visit) {
+    for (std::int64_t z = key.z - 1; z <= key.z + 1; ++z)
+      for (std::int64_t y = key.y - 1; y <= key.y + 1; ++y)
+        for (std::int64_t x = key.x - 1; x <= key.x + 1; ++x) visit(CellKey{x, y, z});
+  }
 
+  struct Entry {
+    std::uint32_t number, cell;
+  };
+
+  HashKind kind_ = HashKind::traditional;
   double side_ = 1;
-  std::vector<Bin> bins_;             // in the order of their first atoms
-  std::vector<std::uint32_t> table_;  // open addressing: number of a bin + 1, or 0
-  std::vector<std::uint32_t> binOf_;  // of each atom
+  std::vector<Cell> cells_;           // that are not empty, in the order of their first atoms
+  std::vector<std::uint32_t> table_;  // open addressing: index of a cell + 1, or 0
+  std::vector<Entry> entries_;
   std::vector<std::uint32_t> numbers_;
 };
 
 template <class Visit>
-void AtomHash::visit(std::span<const Atom> atoms, const CellFrame& cell, const Visit& visit) const {
+void AtomHash::visit(std::span<const Atom> atoms, const CellKey& key, const Visit& visit) const {
+  const CellFrame about = frame(key);
   const AtomLoops& loops = atomLoops();
   AtomRun run;
   std::array<std::uint32_t, 512> candidates;
   std::size_t count = 0;
   const auto flush = [&] {
     for (std::size_t i = 0; i < count;) {
-      i += loops.gather(atoms, AtomList(candidates.data() + i, count - i), cell, run);
+      i += loops.gather(atoms, AtomList(candidates.data() + i, count - i), about, run);
       if (run.count + kLanes <= AtomRun::kMost) continue;
-      visit(run);
+      visit(about, run);
       run.count = 0;
     }
     count = 0;
   };
-  const CellKey bin = keyAt(cell.centre, 1 / (kCellsToBin * side_));
-  for (std::int64_t z = bin.z - 1; z <= bin.z + 1; ++z)
-    for (std::int64_t y = bin.y - 1; y <= bin.y + 1; ++y)
-      for (std::int64_t x = bin.x - 1; x <= bin.x + 1; ++x) {
-        const std::uint32_t found = table_[slotOf({x, y, z})];
-        if (found == 0) continue;
-        const Bin& b = bins_[found - 1];
-        for (std::uint32_t i = b.first; i < b.first + b.count; ++i) {
-          if (count == candidates.size()) flush();
-          candidates[count++] = numbers_[i];
-        }
-      }
+  const auto look = [&](const CellKey& at) {
+    const std::uint32_t found = table_[slotOf(at)];
+    if (found == 0) return;
+    const Cell& cell = cells_[found - 1];
+    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) {
+      if (count == candidates.size()) flush();
+      candidates[count++] = numbers_[i];
+    }
+  };
+  if (kind_ == HashKind::traditional)
+    visitAbout(key, look);
+  else
+    look(key);
   flush();
-  if (run.count > 0) visit(run);
+  if (run.count > 0) visit(about, run);
 }
 
 }  // namespace pbrt::surfels

@@ -91,7 +91,7 @@ void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, Poin
 }
 
 // Atoms are in the lanes.
-template <class K>
+template <class K, bool kMoves>
 void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
                 const DPoint3& p, ExactSums& sums) {
   using metaballs::abs;
@@ -107,18 +107,20 @@ void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3
     magnitude += size;
     const V k = -2 * a.weight * inverse2 * K::slope(q);
     gx += k * a.x, gy += k * a.y, gz += k * a.z;
-    V slope{}, vx{}, vy{}, vz{};
-    for (int n = 0; n < kLanes; ++n) {
-      slope[n] = std::sqrt(r2[n]);
-      if (velocities.empty() || i + n >= list.size()) continue;
-      const Vec3& v = velocities[list[i + n]];
-      vx[n] = v.x, vy[n] = v.y, vz[n] = v.z;
+    if constexpr (kMoves) {
+      V slope{}, vx{}, vy{}, vz{};
+      for (int n = 0; n < kLanes; ++n) {
+        slope[n] = std::sqrt(r2[n]);
+        if (i + n >= list.size()) continue;
+        const Vec3& v = velocities[list[i + n]];
+        vx[n] = v.x, vy[n] = v.y, vz[n] = v.z;
+      }
+      slope *= abs(k);
+      slopes += slope;
+      change -= k * (vx * a.x + vy * a.y + vz * a.z);
+      fx += slope * vx, fy += slope * vy, fz += slope * vz;
+      wx += size * vx, wy += size * vy, wz += size * vz;
     }
-    slope *= abs(k);
-    slopes += slope;
-    change -= k * (vx * a.x + vy * a.y + vz * a.z);
-    fx += slope * vx, fy += slope * vy, fz += slope * vz;
-    wx += size * vx, wy += size * vy, wz += size * vz;
   }
   const V u = metaballs::sums(value, magnitude, gx, gy, gz, slopes, change, V{});
   const V v = metaballs::sums(fx, fy, fz, wx, wy, wz, V{}, V{});
@@ -132,21 +134,25 @@ void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3
 }
 
 extern const AtomLoops kAtomLoops;
-const AtomLoops kAtomLoops{
-    gather,
-    [](Kernel kernel, const AtomRun& run, std::span<const Vec3> velocities, float scale,
-       PointRun& points) {
-      withKernel(kernel, [&]<class K>(K) {
-        if (velocities.empty())
-          add<K, false>(run, velocities, scale, points);
-        else
-          add<K, true>(run, velocities, scale, points);
-      });
-    },
-    [](Kernel kernel, std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
-       const DPoint3& p, ExactSums& sums) {
-      withKernel(kernel, [&]<class K>(K) { addExactly<K>(atoms, list, velocities, p, sums); });
-    }};
+const AtomLoops kAtomLoops{gather,
+                           [](Kernel kernel, const AtomRun& run, std::span<const Vec3> velocities,
+                              float scale, PointRun& points) {
+                             withKernel(kernel, [&]<class K>(K) {
+                               if (velocities.empty())
+                                 add<K, false>(run, velocities, scale, points);
+                               else
+                                 add<K, true>(run, velocities, scale, points);
+                             });
+                           },
+                           [](Kernel kernel, std::span<const Atom> atoms, AtomList list,
+                              std::span<const Vec3> velocities, const DPoint3& p, ExactSums& sums) {
+                             withKernel(kernel, [&]<class K>(K) {
+                               if (velocities.empty())
+                                 addExactly<K, false>(atoms, list, velocities, p, sums);
+                               else
+                                 addExactly<K, true>(atoms, list, velocities, p, sums);
+                             });
+                           }};
 
 }  // namespace PBRT_LANES
 }  // namespace pbrt::surfels

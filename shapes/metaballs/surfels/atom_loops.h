@@ -58,8 +58,9 @@ struct AtomLoops {
   // Puts those of the list whose supports touch the cell at the end of the run, until it is full or
   // nearly so. How many of the list were looked at.
   std::size_t (*gather)(std::span<const Atom>, AtomList, const CellFrame&, AtomRun&);
-  // `velocities`: of all atoms, or empty; they are multiplied by `scale`.
+  // `velocities`: of all atoms, multiplied by `scale`; empty: sums with v are not made.
   void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale, PointRun&);
+  // Without velocities there are no slopes, either.
   void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
                      const DPoint3&, ExactSums&);
 };
