@@ -124,7 +124,7 @@ static void look(const Rays& rays, const Disc* discs, std::span<const std::uint3
   }
   // At a grazing angle the step is kept short.
   const Floats step = values / max(-dot(n, d), 0.1F * weights);
-  seen.t = met & (weights > 0) ? max(rays.tMin, min(rays.tMax, first + step)) : seen.t;
+  seen.t = (met & (weights > 0)) ? max(rays.tMin, min(rays.tMax, first + step)) : seen.t;
   seen.nx = n.x, seen.ny = n.y, seen.nz = n.z;
   seen.surfel = surfel;
 }

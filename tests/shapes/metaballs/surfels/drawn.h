@@ -225,4 +225,11 @@ inline Picture draw(const Discs& discs, const Camera& camera, int width, int hei
   return picture;
 }
 
+// What one ray sees.
+inline Fragment seenBy(const Ray& ray, std::span<const Surfel> surfels) {
+  Fragment f;
+  Discs(surfels, {}).draw(Beam({&ray, 1}, 1), {&f, 1});
+  return f;
+}
+
 }  // namespace pbrt::surfels::test
