@@ -73,7 +73,7 @@ void Simulation::State::step(const MovingField& field, double dt) {
   if (surfels_.empty()) return;
   sort();
   if (closeHoles(field)) sort();
-  push();
+  push(glm::length(DVec3(field.bounds().diagonal())));
   shape(field);
 }
 
@@ -152,12 +152,12 @@ void Simulation::State::sort() {
   });
 }
 
-void Simulation::State::push() {
+void Simulation::State::push(double extent) {
   neighbours_.store(surfels_);
   const auto cells = neighbours_.cells();
   repulsions_.resize(surfels_.size());
   struct Sums {
-    double density = 0, squares = 0, neighbours = 0, value = 0;
+    double density = 0, squares = 0, area = 0, value = 0;
   };
   std::vector<Sums> sums(chunks(cells.size()));
   forChunks(cells.size(), [&](std::size_t begin, std::size_t end) {
@@ -170,13 +170,13 @@ void Simulation::State::push() {
       surfels_[i].radius =
           static_cast<float>(report_.reach) * std::min(1.F, kCover * spacing(r.density));
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));
-      sum.neighbours += r.neighbours;
+      sum.area += 1 / (1.0 + r.neighbours);
       sum.value = std::max(sum.value, std::abs(static_cast<double>(motions_[i].value)));
     }
   });
   Sums all;
   for (const Sums& s : sums) {
-    all.density += s.density, all.squares += s.squares, all.neighbours += s.neighbours;
+    all.density += s.density, all.squares += s.squares, all.area += s.area;
     all.value = std::max(all.value, s.value);
   }
   const auto n = static_cast<double>(surfels_.size());
@@ -184,9 +184,11 @@ void Simulation::State::push() {
   report_.evenness = std::sqrt(std::max(0.0, all.squares / n - mean * mean)) / mean;
   evenness_ = static_cast<float>(report_.evenness);
   report_.residual = all.value;
-  // There are as many neighbours as the reach squared has area.
-  const double wanted = std::min(kNeighbours, n - 1);
-  reach_ = report_.reach * std::clamp(std::sqrt(wanted * n / all.neighbours), 0.1, 1.25);
+  // Each surfel stands for a part of the area, that within its reach shared with its neighbours:
+  // the reach for which, with that area spread evenly, each has as many neighbours as are wanted.
+  const double wanted = report_.reach * std::sqrt((kNeighbours + 1) * all.area / n);
+  reach_ = std::clamp(wanted, 0.1 * report_.reach, 2 * report_.reach);
+  if (reach_ > extent) reach_ = std::max(extent, 0.1 * report_.reach);
 }
 
 void Simulation::State::shape(const MovingField& field) {

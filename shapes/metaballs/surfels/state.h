@@ -35,7 +35,7 @@ class Simulation::State {
   Landing carried(const Bounds3& within, double dt, std::size_t i) const;
   void place(std::size_t i, const Landing& landing);
   void sort();
-  void push();
+  void push(double extent);
   void shape(const MovingField& field);
   // spread.cpp
   std::size_t partner(std::size_t i) const;
