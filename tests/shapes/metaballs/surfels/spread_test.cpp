@@ -16,7 +16,7 @@ double coverage(const Simulation& simulation, const MovingField& field) {
   std::vector<Landing> places(seeds.size());
   field.seeds(1U << 30U, seeds);
   for (std::size_t i = 0; i < seeds.size(); ++i) places[i].p = seeds[i];
-  land(field, 0, 1, places);
+  land(field, places);
   std::erase_if(places, [](const Landing& l) { return !l.there; });
   const auto covered = std::count_if(places.begin(), places.end(), [&](const Landing& l) {
     const auto surfels = simulation.surfels();
