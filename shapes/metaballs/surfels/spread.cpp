@@ -109,7 +109,7 @@ bool Simulation::State::closeHoles(const MovingField& field) {
   };
   // The hole about a place, unless a disc covers it.
   const auto holeAt = [&](const Landing& l) {
-    Hole hole{neighbours_.keyAt(l.p), true, l};
+    Hole hole{0, true, l};
     const bool covered = neighbours_.any(l.p, [&](std::size_t i) {
       const Surfel& s = surfels_[i];
       if (glm::dot(DVec3(s.n), l.gradient) >= 0) return false;
@@ -128,6 +128,13 @@ bool Simulation::State::closeHoles(const MovingField& field) {
     if (64 * (holes.size() - before) <= places.size() || 16 * looks > surfels_.size()) break;
   }
   report_.holes = holes.size();
+  // The surfels are to cover the part of the area that is not covered, too.
+  if (4 * holes.size() > report_.looked) {
+    const auto looked = static_cast<double>(report_.looked);
+    report_.reach *= std::sqrt(looked / (looked + 1 - static_cast<double>(holes.size())));
+    sort();
+  }
+  for (Hole& hole : holes) hole.key = neighbours_.keyAt(hole.at.p);
   const auto byKey = [](const Hole& a, const Hole& b) { return a.key < b.key; };
   std::stable_sort(holes.begin(), holes.end(), byKey);
   bool any = false;
