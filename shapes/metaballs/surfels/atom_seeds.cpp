@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t kRound = 512;  // trials at a time
 constexpr std::size_t kPlaces = 64;  // enough for a frame
-constexpr std::size_t kRounds = 4;   // at most
+constexpr std::size_t kRounds = 2;   // at most
 constexpr std::size_t kTask = 256;   // of them, for a thread
 constexpr double kShell = 0.25;      // in supports
 constexpr double kClose = 0.02;      // the same: near enough to be on the surface
