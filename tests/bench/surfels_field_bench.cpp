@@ -59,8 +59,7 @@ void at(benchmark::State& state) {
   const std::vector<DPoint3> points = pointsOn(water.field);
   std::vector<FieldAt> out(kPoints);
   for (auto _ : state) water.field.at(points, out);
-  state.counters["ns/point"] = benchmark::Counter(
-      kPoints * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetItemsProcessed(state.iterations() * kPoints);
 }
 BENCHMARK(at)
     ->ArgsProduct({{1500}, {0, 1, 2, 3}})
@@ -72,8 +71,7 @@ void shape(benchmark::State& state) {
   const std::vector<DPoint3> points = pointsOn(water.field);
   std::vector<ShapeAt> out(kPoints);
   for (auto _ : state) water.field.shape(points, out);
-  state.counters["ns/point"] = benchmark::Counter(
-      kPoints * 1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetItemsProcessed(state.iterations() * kPoints);
 }
 BENCHMARK(shape)->Arg(1500)->Unit(benchmark::kMillisecond);
 
@@ -85,8 +83,7 @@ void seeds(benchmark::State& state) {
     water.field.seeds(first, points);
     first += points.size();
   }
-  state.counters["ns/seed"] = benchmark::Counter(
-      256e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  state.SetItemsProcessed(state.iterations() * 256);
 }
 BENCHMARK(seeds)->Arg(1500)->Arg(100000)->Unit(benchmark::kMillisecond);
 

@@ -9,7 +9,7 @@
 namespace pbrt::surfels {
 namespace {
 
-constexpr std::size_t kChunk = 256;  // points that are looked at together
+constexpr std::size_t kChunk = 512;  // points that are looked at together
 
 bool isFinite(const DPoint3& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
@@ -86,7 +86,7 @@ template <class Visit>
 void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) const {
   struct Group {
     CellKey key;
-    std::uint16_t count = 0, end = 0;  // in `order`
+    std::uint16_t count, end;  // in `order`
   };
   std::array<Group, kChunk> groups;
   std::array<std::uint16_t, kChunk> groupOf, order;
@@ -101,7 +101,7 @@ void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) 
       while (table[slot] > 0 && groups[table[slot] - 1U].key != key)
         slot = (slot + 1) % table.size();
       if (table[slot] == 0) {
-        groups[count++] = {key};
+        groups[count++] = {key, 0, 0};
         table[slot] = static_cast<std::uint16_t>(count);
       }
       groupOf[i] = static_cast<std::uint16_t>(table[slot] - 1U);
@@ -147,32 +147,28 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
   error.fill(0x1p-24);
   std::ranges::fill(out, FieldAt{});
   visitCells(points, [&](const CellFrame& frame, std::span<const std::uint16_t> members,
-                         const AtomRun& run) {
-    std::array<EightSums, 8> eights;
+                         const AtomRun& atoms) {
+    PointRun run;
     const double perLength = 1 / frame.side;
-    for (; !members.empty();
-         members = members.subspan(std::min(members.size(), 8 * kLanes * std::size_t{1}))) {
-      const std::size_t count = std::min<std::size_t>(members.size(), eights.size() * kLanes);
-      const std::size_t blocks = (count + kLanes - 1) / kLanes;
-      for (std::size_t i = 0; i < blocks * kLanes; ++i) {
-        const Point3 p = frame.inward(points[members[std::min(i, count - 1)]]);
-        if (i % kLanes == 0) eights[i / kLanes] = {};
-        for (int k = 0; k < 3; ++k) eights[i / kLanes].p[k][i % kLanes] = p[k];
+    for (; !members.empty(); members = members.subspan(run.count)) {
+      run.count = std::min(members.size(), PointRun::kMost);
+      for (std::size_t i = 0; i < run.count; ++i) {
+        const Point3 p = frame.inward(points[members[i]]);
+        run.p[0][i] = p.x, run.p[1][i] = p.y, run.p[2][i] = p.z;
       }
-      loops.add(kernel_, run, velocities_, scale, std::span(eights).first(blocks));
-      for (std::size_t i = 0; i < count; ++i) {
-        const EightSums& s = eights[i / kLanes];
-        const std::size_t k = i % kLanes;
-        const auto vector = [&](const Floats(&v)[3]) { return DVec3(v[0][k], v[1][k], v[2][k]); };
-        FieldAt& f = out[members[i]];
-        f.value += s.value[k];
-        f.gradient += perLength * vector(s.gradient);
-        f.change += perLength * fastest_ * s.change[k];
-        f.flow += perLength * fastest_ * vector(s.flow);
-        slopes[members[i]] += perLength * s.slopes[k];
-        error[members[i]] +=
-            0x1p-24 * ((15 + rounding) * s.slopes[k] +
-                       (2 + rounding + static_cast<double>(run.count)) * s.magnitude[k]);
+      loops.add(kernel_, atoms, velocities_, scale, run);
+      const double terms = 2 + rounding + static_cast<double>(atoms.count);
+      for (std::size_t i = 0; i < run.count; ++i) {
+        const auto vector = [&](const PointRun::Each(&v)[3]) {
+          return DVec3(v[0][i], v[1][i], v[2][i]);
+        };
+        const std::uint16_t j = members[i];
+        out[j].value += run.value[i];
+        out[j].gradient += perLength * vector(run.gradient);
+        out[j].change += perLength * fastest_ * run.change[i];
+        out[j].flow += perLength * fastest_ * vector(run.flow);
+        slopes[j] += perLength * run.slopes[i];
+        error[j] += 0x1p-24 * ((15 + rounding) * run.slopes[i] + terms * run.magnitude[i]);
       }
     }
   });

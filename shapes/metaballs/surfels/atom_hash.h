@@ -12,7 +12,7 @@ namespace pbrt::surfels {
 // A cell of a grid, counted from the origin of space. Keys are compared in full: places that share
 // a hash share nothing else.
 struct CellKey {
-  std::int64_t x = 0, y = 0, z = 0;
+  std::int64_t x, y, z;
 
   friend bool operator==(const CellKey&, const CellKey&) = default;
   std::uint64_t hash() const {
@@ -41,7 +41,7 @@ class AtomHash {
  private:
   // Cells along a bin's side, which is the largest radius: the supports that touch a cell have
   // their centres in its bin or the 26 about it.
-  static constexpr int kCellsToBin = 2;
+  static constexpr int kCellsToBin = 1;
 
   struct Bin {
     CellKey key;

@@ -56,26 +56,38 @@ static std::size_t gather(std::span<const Atom> atoms, AtomList list, const Cell
 // W = w K(q) with q = |d|^2 / h^2 and d = p - a: grad W = 2 w K'(q) / h^2 d. The atom's centre a
 // moves by v, so that dW/dt = -grad W . v.
 template <class K, bool kMoves>
-void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, EightSums& sums) {
-  EightSums s = sums;
-  for (std::size_t i = 0; i < run.count; ++i) {
-    const Floats x = s.p[0] - run.x[i], y = s.p[1] - run.y[i], z = s.p[2] - run.z[i];
-    const Floats r2 = x * x + y * y + z * z, q = r2 * run.inverse2[i];
-    if (bits(q < 1) == 0) continue;
-    const Floats value = run.weight[i] * K::value(q);
-    const Floats k = (2 * run.weight[i] * run.inverse2[i]) * K::slope(q);
-    s.value += value;
-    s.magnitude += metaballs::abs(value);
-    s.gradient[0] += k * x, s.gradient[1] += k * y, s.gradient[2] += k * z;
-    const Floats slope = metaballs::abs(k) * squareRoot(r2);
-    s.slopes += slope;
-    if constexpr (kMoves) {
-      const Vec3 v = scale * velocities[run.number[i]];
-      s.change -= k * (v.x * x + v.y * y + v.z * z);
-      s.flow[0] += v.x * slope, s.flow[1] += v.y * slope, s.flow[2] += v.z * slope;
+void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, PointRun& points) {
+  for (std::size_t first = 0; first < points.count; first += kLanes) {
+    const auto load = [&](const PointRun::Each& a) {
+      return *reinterpret_cast<const Floats*>(a + first);
+    };
+    const auto store = [&](const Floats& v, PointRun::Each& a) {
+      *reinterpret_cast<Floats*>(a + first) = v;
+    };
+    const Floats px = load(points.p[0]), py = load(points.p[1]), pz = load(points.p[2]);
+    Floats value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, change{}, fx{}, fy{}, fz{};
+    for (std::size_t i = 0; i < run.count; ++i) {
+      const Floats x = px - run.x[i], y = py - run.y[i], z = pz - run.z[i];
+      const Floats r2 = x * x + y * y + z * z, q = r2 * run.inverse2[i];
+      if (bits(q < 1) == 0) continue;
+      const Floats own = run.weight[i] * K::value(q);
+      const Floats k = (2 * run.weight[i] * run.inverse2[i]) * K::slope(q);
+      value += own;
+      magnitude += metaballs::abs(own);
+      gx += k * x, gy += k * y, gz += k * z;
+      const Floats slope = metaballs::abs(k) * squareRoot(r2);
+      slopes += slope;
+      if constexpr (kMoves) {
+        const Vec3 v = scale * velocities[run.number[i]];
+        change -= k * (v.x * x + v.y * y + v.z * z);
+        fx += v.x * slope, fy += v.y * slope, fz += v.z * slope;
+      }
     }
+    store(value, points.value), store(magnitude, points.magnitude);
+    store(gx, points.gradient[0]), store(gy, points.gradient[1]), store(gz, points.gradient[2]);
+    store(slopes, points.slopes), store(change, points.change);
+    store(fx, points.flow[0]), store(fy, points.flow[1]), store(fz, points.flow[2]);
   }
-  sums = s;
 }
 
 // Atoms are in the lanes.
@@ -123,13 +135,12 @@ extern const AtomLoops kAtomLoops;
 const AtomLoops kAtomLoops{
     gather,
     [](Kernel kernel, const AtomRun& run, std::span<const Vec3> velocities, float scale,
-       std::span<EightSums> sums) {
+       PointRun& points) {
       withKernel(kernel, [&]<class K>(K) {
-        for (EightSums& eight : sums)
-          if (velocities.empty())
-            add<K, false>(run, velocities, scale, eight);
-          else
-            add<K, true>(run, velocities, scale, eight);
+        if (velocities.empty())
+          add<K, false>(run, velocities, scale, points);
+        else
+          add<K, true>(run, velocities, scale, points);
       });
     },
     [](Kernel kernel, std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,

@@ -30,15 +30,18 @@ struct AtomRun {
   std::uint32_t number[kMost];
 };
 
-// What the atoms add to the field at eight points of a cell, in its frame. One point a lane: its
-// sums have the order of the atoms whatever the other points are.
-struct alignas(metaballs::kLaneAlignment) EightSums {
-  Floats p[3];
-  Floats value{}, magnitude{};  // of w K and of |w K|
-  Floats gradient[3] = {};
-  Floats slopes{};      // of |grad W|
-  Floats change{};      // of -grad W . v
-  Floats flow[3] = {};  // of |grad W| v
+// What the atoms of a run add to the field at some points of a cell, in its frame. The sums of a
+// point have the order of the atoms, whatever the other points are.
+struct alignas(metaballs::kLaneAlignment) PointRun {
+  static constexpr std::size_t kMost = 64;
+  using Each = float[kMost];
+  Each p[3];              // from here on, numbers up to the next multiple of kLanes may be anything
+  Each value, magnitude;  // of w K and of |w K|
+  Each gradient[3];
+  Each slopes;            // of |grad W|
+  Each change;            // of -grad W . v
+  Each flow[3];           // of |grad W| v
+  std::size_t count = 0;  // beyond it, numbers may be anything
 };
 
 // The same at one point, in double and in the units of space.
@@ -56,8 +59,7 @@ struct AtomLoops {
   // nearly so. How many of the list were looked at.
   std::size_t (*gather)(std::span<const Atom>, AtomList, const CellFrame&, AtomRun&);
   // `velocities`: of all atoms, or empty; they are multiplied by `scale`.
-  void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale,
-              std::span<EightSums>);
+  void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale, PointRun&);
   void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
                      const DPoint3&, ExactSums&);
 };

@@ -186,7 +186,7 @@ void Simulation::State::push() {
   report_.residual = all.value;
   // There are as many neighbours as the reach squared has area.
   const double wanted = std::min(kNeighbours, n - 1);
-  reach_ = report_.reach * std::clamp(std::sqrt(wanted * n / all.neighbours), 0.5, 1.25);
+  reach_ = report_.reach * std::clamp(std::sqrt(wanted * n / all.neighbours), 0.1, 1.25);
 }
 
 void Simulation::State::shape(const MovingField& field) {

@@ -1,6 +1,7 @@
 // How surfels get to where there are too few.
 
 #include <array>
+#include <optional>
 
 #include "core/base/frame.h"
 #include "core/base/rng.h"
@@ -8,24 +9,36 @@
 #include "shapes/metaballs/surfels/state.h"
 
 namespace pbrt::surfels {
+namespace {
+
+// Places looked at in a step at which no hole is found.
+constexpr std::size_t kLooks = 192;
+
+// The unit vector across n in a direction, given as a part of the circle.
+DVec3 across(const Normal3& n, float part) {
+  const Frame frame = Frame::fromZ(n);
+  return DVec3(std::cos(2 * kPi * part) * frame.x + std::sin(2 * kPi * part) * frame.y);
+}
+
+}  // namespace
 
 // Dispersion (van Kooten et al. 2007, section 4.2): the surfel beside which this one is to go on,
-// or itself.
+// or itself. Sigma differs by as much as the threshold also by chance, so that the fewer ask the
+// more even the cover is, and none at rest; and never all at once, since they do not know of each
+// other.
 std::size_t Simulation::State::partner(std::size_t i) const {
+  const float share = std::min(0.25F, 4 * (evenness_ - 0.1F));
+  if (!(share > 0)) return i;
   const std::uint64_t random = hash(settings_.seed, steps_, i);
+  if (uniformFloat(static_cast<std::uint32_t>(random)) >= share) return i;
   const std::size_t other = (random >> 32U) * surfels_.size() >> 32U;
-  const float share = uniformFloat(static_cast<std::uint32_t>(random));
-  const bool goes =
-      share < evenness_ - 0.1F && surfels_[i].density - surfels_[other].density > kWorthWhile;
-  return goes ? other : i;
+  return surfels_[i].density - surfels_[other].density > kWorthWhile ? other : i;
 }
 
 // A place on the edge of the influence of surfel i, that goes to `at`, in any direction.
 Landing Simulation::State::beside(std::size_t i, Landing at) const {
-  const float angle =
-      2 * kPi * uniformFloat(static_cast<std::uint32_t>(hash(settings_.seed, steps_, i, 1)));
-  const Frame frame = Frame::fromZ(surfels_[i].n);
-  at.p += report_.reach * DVec3(std::cos(angle) * frame.x + std::sin(angle) * frame.y);
+  const auto random = static_cast<std::uint32_t>(hash(settings_.seed, steps_, i, 1));
+  at.p += report_.reach * across(surfels_[i].n, uniformFloat(random));
   return at;
 }
 
@@ -45,6 +58,13 @@ std::vector<Landing> Simulation::State::look(const MovingField& field, std::size
   return found;
 }
 
+void Simulation::State::set(std::size_t i, const Landing& landing) {
+  place(i, landing);
+  std::fill(std::begin(motions_[i].push), std::end(motions_[i].push), 0.F);
+  surfels_[i].density = 1;
+  surfels_[i].radius = static_cast<float>(report_.reach);
+}
+
 void Simulation::State::setAnew(const MovingField& field) {
   const bool first = surfels_.empty();
   if (first) {
@@ -54,18 +74,10 @@ void Simulation::State::setAnew(const MovingField& field) {
   }
   const bool most = 2 * lost_.size() >= surfels_.size();
   report_.moved += lost_.size();
-  const auto set = [&](std::size_t i, const Landing& l) {
-    place(i, l);
-    std::fill(std::begin(motions_[i].push), std::end(motions_[i].push), 0.F);
-    surfels_[i].density = 1;
-    surfels_[i].radius = static_cast<float>(report_.reach);
-  };
-  std::vector<Landing> places;
   std::size_t done = 0;
   for (int round = 0; round < 4 && done < lost_.size(); ++round) {
     const auto more = look(field, lost_.size() - done);
     for (const Landing& l : more) set(lost_[done++], l);
-    places.insert(places.end(), more.begin(), more.end());
   }
   // Where seeds are rare, one must do for several.
   if (done < lost_.size()) {
@@ -86,49 +98,69 @@ void Simulation::State::setAnew(const MovingField& field) {
   if (most && !surfels_.empty()) guessReach(field.grain());
 }
 
+// What is found uncovered is closed by one surfel a cell, where there is no other within the reach
+// by seven, as in a honeycomb: so new pieces are covered at once. They come from where sigma is
+// great.
 bool Simulation::State::closeHoles(const MovingField& field) {
-  const auto covered = [&](const Landing& l) {
-    return neighbours_.any(l.p, [&](std::size_t i) {
-      const Surfel& s = surfels_[i];
-      return lengthSquared(s.p - l.p) <= sqr(static_cast<double>(s.radius)) &&
-             glm::dot(DVec3(s.n), l.gradient) < 0;
-    });
-  };
   struct Hole {
     std::uint64_t key = 0;
+    bool wide = true;
     Landing at;
   };
+  // The hole about a place, unless a disc covers it.
+  const auto holeAt = [&](const Landing& l) {
+    Hole hole{neighbours_.keyAt(l.p), true, l};
+    const bool covered = neighbours_.any(l.p, [&](std::size_t i) {
+      const Surfel& s = surfels_[i];
+      if (glm::dot(DVec3(s.n), l.gradient) >= 0) return false;
+      const double square = lengthSquared(s.p - l.p);
+      hole.wide = hole.wide && square > sqr(report_.reach);
+      return square <= sqr(static_cast<double>(s.radius));
+    });
+    return covered ? std::nullopt : std::optional(hole);
+  };
   std::vector<Hole> holes;
-  for (std::size_t looks = 192, before = 0;; looks *= 2, before = holes.size()) {
+  for (std::size_t looks = kLooks, before = 0;; looks *= 2, before = holes.size()) {
     const auto places = look(field, looks);
     report_.looked += places.size();
     for (const Landing& l : places)
-      if (!covered(l)) holes.push_back({neighbours_.keyAt(l.p), l});
-    if (16 * (holes.size() - before) <= places.size() || 8 * looks > surfels_.size()) break;
+      if (const auto hole = holeAt(l)) holes.push_back(*hole);
+    if (64 * (holes.size() - before) <= places.size() || 32 * looks > surfels_.size()) break;
   }
   report_.holes = holes.size();
-  // One for each cell: those in a hole together are near each other.
-  std::stable_sort(holes.begin(), holes.end(),
-                   [](const Hole& a, const Hole& b) { return a.key < b.key; });
-  holes.erase(std::unique(holes.begin(), holes.end(),
-                          [](const Hole& a, const Hole& b) { return a.key == b.key; }),
-              holes.end());
+  const auto byKey = [](const Hole& a, const Hole& b) { return a.key < b.key; };
+  std::stable_sort(holes.begin(), holes.end(), byKey);
   bool any = false;
-  Rng rng(hash(settings_.seed, steps_));
-  for (const Hole& hole : holes) {
-    std::size_t crowded = rng.uniform(static_cast<std::uint32_t>(surfels_.size()));
-    for (int i = 0; i < 8; ++i) {
-      const std::size_t other = rng.uniform(static_cast<std::uint32_t>(surfels_.size()));
-      if (surfels_[other].density > surfels_[crowded].density) crowded = other;
-    }
-    if (surfels_[crowded].density < 1 + kWorthWhile) continue;
-    place(crowded, hole.at);
-    std::fill(std::begin(motions_[crowded].push), std::end(motions_[crowded].push), 0.F);
-    surfels_[crowded].density = 1;
-    ++report_.moved;
-    any = true;
+  for (std::size_t k = 0; k < holes.size(); ++k) {
+    const Hole& hole = holes[k];
+    if (k > 0 && holes[k - 1].key == hole.key) continue;
+    std::array<Landing, 7> places;
+    places.fill({hole.at.p});
+    const std::size_t n = hole.wide ? 7 : 1;
+    const Normal3 normal(-glm::normalize(hole.at.gradient));
+    for (std::size_t i = 1; i < n; ++i)
+      places[i].p += 0.5 * report_.reach * across(normal, static_cast<float>(i) / 6);
+    land(field, 0, report_.reach, {places.data(), n});
+    for (std::size_t i = 0; i < n; ++i)
+      if (places[i].there && glm::dot(places[i].gradient, hole.at.gradient) > 0)
+        any = moveCrowded(places[i]) || any;
   }
   return any;
+}
+
+// Sets a surfel of which the neighbours are many at a place where there is none.
+bool Simulation::State::moveCrowded(const Landing& place) {
+  Rng rng(hash(settings_.seed, steps_, report_.moved));
+  const auto count = static_cast<std::uint32_t>(surfels_.size());
+  std::size_t crowded = rng.uniform(count);
+  for (int i = 0; i < 8; ++i)
+    if (const std::size_t other = rng.uniform(count);
+        surfels_[other].density > surfels_[crowded].density)
+      crowded = other;
+  if (surfels_[crowded].density < 1 + kWorthWhile) return false;
+  set(crowded, place);
+  ++report_.moved;
+  return true;
 }
 
 // The distance within which the half of a few surfels have as many neighbours as all are to have.

@@ -42,7 +42,9 @@ class Simulation::State {
   Landing beside(std::size_t i, Landing at) const;
   std::vector<Landing> look(const MovingField& field, std::size_t places);
   void setAnew(const MovingField& field);
+  void set(std::size_t i, const Landing& landing);
   bool closeHoles(const MovingField& field);
+  bool moveCrowded(const Landing& place);
   void guessReach(double least);
 
   Settings settings_;

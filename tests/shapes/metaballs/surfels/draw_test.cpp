@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cstring>
 
 #include "tests/shapes/metaballs/surfels/drawn.h"
@@ -135,14 +134,254 @@ Errors errorsOfBall(std::size_t n, bool bent) {
     e.normal += lengthSquared(DVec3(f.n) - m);
   }
   e.distance = std::sqrt(e.distance / hits), e.normal = std::sqrt(e.normal / hits);
-  std::printf("%6zu %s: r %.4f distance %.2e normal %.2e lost %.2e gained %.2e\n", n,
-              bent ? "bent" : "flat", coveringRadius(n), e.distance, e.normal, e.lost, e.gained);
   return e;
 }
 
-TEST(Draw, ErrorsOfABall) {
-  for (const bool bent : {false, true})
-    for (const std::size_t n : {256U, 1024U, 4096U, 16384U}) errorsOfBall(n, bent);
+// Four times the discs are half as wide. Tangent discs are off by second order in distance, by
+// first order in direction; bent ones by two orders less (on a ball, whose third-order terms are
+// zero). A pixel is 0.005 wide.
+TEST(Draw, BendMakesDiscsOfHigherOrder) {
+  for (const std::size_t n : {256U, 1024U}) {
+    const Errors flat = errorsOfBall(n, false), flat4 = errorsOfBall(4 * n, false);
+    const Errors bent = errorsOfBall(n, true), bent4 = errorsOfBall(4 * n, true);
+    EXPECT_NEAR(flat.distance / flat4.distance, 4, 0.5);
+    EXPECT_NEAR(flat.normal / flat4.normal, 2, 0.5);
+    EXPECT_NEAR(bent.distance / bent4.distance, 16, 2);
+    EXPECT_NEAR(bent.normal / bent4.normal, 8, 4);
+  }
+  const Errors few = errorsOfBall(256, true), many = errorsOfBall(4096, true);
+  EXPECT_LT(few.distance, 1e-4);
+  EXPECT_LT(few.normal, 1e-3);
+  EXPECT_LT(many.distance, 1e-6);
+  EXPECT_LT(many.normal, 1e-5);
+}
+
+// (sqrt(1 + r^2) - 1 is how far a tangent disc reaches over the silhouette.)
+TEST(Draw, ABallHasNoHolesAndItsSilhouetteIsSharp) {
+  for (const std::size_t n : {64U, 256U, 4096U}) {
+    const double r = coveringRadius(n);
+    const Errors flat = errorsOfBall(n, false), bent = errorsOfBall(n, true);
+    EXPECT_EQ(flat.lost, 0);
+    EXPECT_EQ(bent.lost, 0);
+    EXPECT_LT(flat.gained, r * r / 2);
+    EXPECT_LT(bent.gained, r * r * r / 20);
+  }
+}
+
+Surfel disc(const DPoint3& p, const Normal3& n, float radius) {
+  Surfel s;
+  s.p = p, s.n = n, s.radius = radius;
+  return s;
+}
+Fragment seenBy(const Ray& ray, std::span<const Surfel> surfels) {
+  Fragment f;
+  Discs(surfels, {}).draw(Beam({&ray, 1}, 1), {&f, 1});
+  return f;
+}
+
+TEST(Draw, ADiscIsSeenWithinItsRadiusFromTheFront) {
+  const Surfel one[] = {disc({0, 0, 1}, {0, 0, 1}, 0.5F)};
+  for (const float scale : {1.F, 1e-10F, 1e10F}) {
+    const Vec3 down{0, 0, -scale};
+    const Fragment f = seenBy({{0.3F, 0.2F, 3}, 0, down}, one);
+    EXPECT_NEAR(f.t * scale, 2, 1e-6);
+    EXPECT_NEAR(glm::distance(f.n, {0, 0, 1}), 0, 1e-6);
+    EXPECT_EQ(seenBy({{0.4F, 0.4F, 3}, 0, down}, one).t, kInfinity);
+    EXPECT_EQ(seenBy({{0, 0, 0}, 0, -down}, one).t, kInfinity) << "from behind";
+    EXPECT_EQ(seenBy({{0, 0, 3}, 0, -down}, one).t, kInfinity) << "away from it";
+    EXPECT_EQ(seenBy({{0, 0, 3}, 2.1F / scale, down}, one).t, kInfinity) << "tMin";
+    EXPECT_EQ(seenBy({{0, 0, 3}, 0, down, 1.9F / scale}, one).t, kInfinity) << "tMax";
+    EXPECT_LT(seenBy({{0, 0, 3}, 1.9F / scale, down, 2.1F / scale}, one).t, kInfinity);
+  }
+}
+
+TEST(Draw, ADiscSeenEdgeOnIsNotThere) {
+  const Surfel one[] = {disc({0, 0, 0}, {0, 0, 1}, 1)};
+  for (const float z : {0.F, 1e-9F, -1e-9F, 0.1F})
+    EXPECT_EQ(seenBy({{-3, 0, z}, 0, {1, 0, 0}}, one).t, kInfinity);
+  // A hair above the edge it is, and the answer is finite.
+  for (const float slope : {0.01F, 0.1F}) {
+    const Fragment f = seenBy({{-3, 0, 3 * slope}, 0, {1, 0, -slope}}, one);
+    EXPECT_NEAR(f.t, 3, 1e-4);
+    EXPECT_NEAR(f.n.z, 1, 1e-6);
+  }
+}
+
+// A lattice of discs in the plane of a height.
+void addSheet(std::vector<Surfel>& surfels, double z, float facing) {
+  for (int x = -20; x <= 20; ++x)
+    for (int y = -20; y <= 20; ++y)
+      surfels.push_back(disc({0.1 * x, 0.1 * y, z}, {0, 0, facing}, 0.1F));
+}
+TEST(Draw, SheetsCloseTogetherDoNotMix) {
+  std::vector<Surfel> surfels;
+  addSheet(surfels, 0, 1);  // a film, far thinner than the discs are wide,
+  addSheet(surfels, -0.002, -1);
+  addSheet(surfels, -0.06, 1);  // and another drop half a disc behind
+  for (const Camera& camera : {parallel(1), pinhole({2, 0, 2}, 2), pinhole({5, 1, 1}, 5)}) {
+    const Picture picture = draw(Discs(surfels, {}), camera, 64, 64, 32);
+    int hits = 0;
+    for (std::size_t i = 0; i < picture.rays.size(); ++i) {
+      const Point3 p = picture.rays[i].at(picture.seen[i].t);
+      if (!(std::max(std::abs(p.x), std::abs(p.y)) < 1.9F)) continue;
+      ++hits;
+      EXPECT_NEAR(p.z, 0, 1e-5);
+      EXPECT_NEAR(picture.seen[i].n.z, 1, 1e-6);
+      EXPECT_LT(picture.seen[i].surfel, 1681U);
+    }
+    EXPECT_GT(hits, 1000);
+  }
+}
+
+TEST(Draw, NothingIsSeenOfNothing) {
+  const std::vector<Surfel> some = ball(100);
+  Discs(some, {}).draw(Beam(), {});
+  Discs(some, {}).draw(Beam({}, 0), {});
+  const Ray towards{{0, 0, 3}, 0, {0, 0, -1}};
+  EXPECT_LT(seenBy(towards, some).t, kInfinity);
+  EXPECT_EQ(seenBy(towards, {}).t, kInfinity);
+  Fragment f;
+  Discs().draw(Beam({&towards, 1}, 1), {&f, 1});
+  EXPECT_EQ(f.t, kInfinity);
+
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const Ray nonsense[] = {{{0, 0, 3}, 0, {0, 0, 0}},          {{0, 0, 3}, 0, {0, nan, -1}},
+                          {{nan, 0, 3}, 0, {0, 0, -1}},       {{0, 0, kInfinity}, 0, {0, 0, -1}},
+                          {{0, 0, 3}, 0, {0, 0, -kInfinity}}, {{0, 0, 3}, nan, {0, 0, -1}},
+                          {{0, 0, 3}, 0, {0, 0, -1}, nan},    {{0, 0, 3}, 5, {0, 0, -1}, 1}};
+  std::vector<Ray> rays;
+  for (const Ray& ray : nonsense) rays.insert(rays.end(), {ray, towards});
+  std::vector<Fragment> seen(rays.size());
+  Discs(some, {}).draw(Beam(rays, 4), seen);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    EXPECT_EQ(seen[i].t < kInfinity, i % 2 == 1) << "the others are not disturbed: " << i;
+}
+
+TEST(Draw, SurfelsThatAreNoDiscsAreLeftOut) {
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::vector<Surfel> sound = ball(1000);
+  std::vector<Surfel> mixed;
+  for (std::size_t i = 0; i < sound.size(); ++i) {
+    Surfel wrong = sound[(i * 7) % sound.size()];
+    wrong.n = {0, 1, 0};  // would be seen
+    switch (i % 7) {
+      case 0:
+        wrong.radius = 0;
+        break;
+      case 1:
+        wrong.radius = nan;
+        break;
+      case 2:
+        wrong.radius = -1;
+        break;
+      case 3:
+        wrong.radius = kInfinity;
+        break;
+      case 4:
+        wrong.p.y = std::numeric_limits<double>::quiet_NaN();
+        break;
+      case 5:
+        wrong.n.z = nan;
+        break;
+      case 6:
+        wrong.bend[i % 6] = i % 2 ? nan : kInfinity;
+        break;
+    }
+    mixed.insert(mixed.end(), {wrong, sound[i]});
+  }
+  const Picture one = draw(Discs(sound, {}), pinhole({1, 2, 3}), 64, 64, 32);
+  const Picture other = draw(Discs(mixed, {}), pinhole({1, 2, 3}), 64, 64, 32);
+  for (std::size_t i = 0; i < one.seen.size(); ++i) {
+    EXPECT_EQ(one.seen[i].t, other.seen[i].t);
+    EXPECT_EQ(one.seen[i].n, other.seen[i].n);
+    if (one.seen[i].t < kInfinity) {
+      EXPECT_EQ(2 * one.seen[i].surfel + 1, other.seen[i].surfel);
+    }
+  }
+}
+
+TEST(Draw, DiscsAreSetAnewWithNothingLeftOfTheOld) {
+  Discs discs(ball(5000), {});
+  for (const std::size_t n : {0U, 1U, 40U, 3000U, 7U}) {
+    const std::vector<Surfel> surfels = ball(n);
+    discs.set(surfels, {});
+    const Picture again = draw(discs, pinhole({1, 2, 3}), 48, 48, 32);
+    const Picture fresh = draw(Discs(surfels, {}), pinhole({1, 2, 3}), 48, 48, 32);
+    for (std::size_t i = 0; i < again.seen.size(); ++i) {
+      EXPECT_EQ(again.seen[i].t, fresh.seen[i].t);
+      EXPECT_EQ(again.seen[i].surfel, fresh.seen[i].surfel);
+    }
+  }
+}
+
+template <class T>
+bool sameBits(const T& a, const T& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(DrawLoops, AllInstructionSetsGiveTheSameBits) {
+  Random random(8);
+  const auto fill = [&](Floats& lanes, double lo, double hi) {
+    for (int i = 0; i < kLanes; ++i) lanes[i] = static_cast<float>(random.in(lo, hi));
+  };
+  std::vector<Balls> balls(500);
+  for (Balls& b : balls) {
+    for (Floats* lanes : {&b.x, &b.y, &b.z, &b.nx, &b.ny, &b.nz}) fill(*lanes, -1, 1);
+    fill(b.radius, 0, 0.2), fill(b.turn, 0, 0.5);
+  }
+  std::vector<Disc> discs(200);
+  std::vector<std::uint32_t> list(discs.size());
+  for (std::uint32_t i = 0; i < discs.size(); ++i) {
+    discs[i] = {Point3(0.3 * random.cube()), Normal3(random.direction())};
+    for (float& b : discs[i].bend) b = static_cast<float>(random.in(-1, 1));
+    const double radius = random.in(0.05, 0.4);
+    discs[i].rim2 = static_cast<float>(0.999 * sqr(radius));
+    discs[i].inverse2 = static_cast<float>(1 / sqr(radius));
+    list[i] = i;
+  }
+  std::size_t met = 0, seen = 0;
+  for (int trial = 0; trial < 300; ++trial) {
+    const DVec3 axis = random.direction();
+    const double angle = random.in(0, 1);
+    const Bound bound{Point3(random.cube()),
+                      static_cast<float>(random.in(0, 0.1)),
+                      Vec3(axis),
+                      static_cast<float>(std::cos(angle)),
+                      static_cast<float>(std::sin(angle)),
+                      static_cast<float>(2 * std::sin(angle / 2))};
+    Rays rays;
+    for (int i = 0; i < kLanes; ++i) {
+      const DVec3 d = random.direction();
+      const DPoint3 o = random.cube() - 2.0 * d;
+      rays.ox[i] = static_cast<float>(o.x), rays.oy[i] = static_cast<float>(o.y);
+      rays.oz[i] = static_cast<float>(o.z), rays.dx[i] = static_cast<float>(d.x);
+      rays.dy[i] = static_cast<float>(d.y), rays.dz[i] = static_cast<float>(d.z);
+      rays.tMax[i] = i % 3 ? kInfinity : 2;
+    }
+    std::vector<std::uint32_t> expected(balls.size() * kLanes);
+    Seen expectedSeen{};
+    bool first = true;
+    for (const DrawLoops* loops : allDrawLoops()) {
+      std::vector<std::uint32_t> out(balls.size() * kLanes), near(list.size());
+      out.resize(loops->narrow(bound, balls, out.data()));
+      Seen own{};
+      loops->look(rays, discs.data(), list, near.data(), own);
+      if (first) expected = out, expectedSeen = own, met += out.size();
+      EXPECT_EQ(out, expected);
+      EXPECT_TRUE(sameBits(own.t, expectedSeen.t));
+      for (int i = 0; i < kLanes; ++i) {
+        if (!(own.t[i] < kInfinity)) continue;
+        seen += first;
+        EXPECT_TRUE(sameBits(own.nx[i], expectedSeen.nx[i]));
+        EXPECT_TRUE(sameBits(own.ny[i], expectedSeen.ny[i]));
+        EXPECT_TRUE(sameBits(own.nz[i], expectedSeen.nz[i]));
+        EXPECT_EQ(own.surfel[i], expectedSeen.surfel[i]);
+      }
+      first = false;
+    }
+  }
+  EXPECT_GT(met, 10000U);
+  EXPECT_GT(seen, 300U);
 }
 
 }  // namespace

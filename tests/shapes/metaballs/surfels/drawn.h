@@ -33,9 +33,8 @@ inline void setBend(Surfel& surfel, const glm::dmat3& b) {
   for (int i = 0; i < 6; ++i) surfel.bend[i] = static_cast<float>(all[i]);
 }
 
-// The least radius, but for a little, with which n discs on a Fibonacci lattice cover a unit ball.
-// Each has an area of 4 pi / n; of 2 pi / (sqrt(3) n) r^2 = area that a hexagonal lattice needs,
-// the lattice needs up to half as much again in r.
+// With which n discs on a Fibonacci lattice cover a unit ball. A hexagonal lattice of cells of area
+// A = 4 pi / n covers with r^2 = 2 A / (3 sqrt(3)); the other needs up to half as much again in r.
 inline double coveringRadius(std::size_t n) {
   return 1.5 * std::sqrt(8 * std::numbers::pi / (3 * std::sqrt(3) * static_cast<double>(n)));
 }

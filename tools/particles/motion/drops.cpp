@@ -1,0 +1,62 @@
+#include "tools/particles/motion/drops.h"
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "core/base/error.h"
+
+namespace pbrt::motion {
+
+metaballs::Atom fluidAtom(const Point3& p, float spacing) {
+  // r^3 4 pi / 3 = 1, and weight (1 - r^2 / 4)^3 = 1.
+  static const double weight = [] {
+    const double r = ballRadius(1);
+    return 1 / metaballs::Power<3>::value(r * r / 4);
+  }();
+  return {p, 2 * spacing, weight};
+}
+
+std::vector<DVec3> ball(std::size_t count) {
+  std::vector<DVec3> points;
+  const int most = static_cast<int>(std::ceil(ballRadius(count))) + 2;
+  for (int z = -most; z <= most; ++z)
+    for (int y = -most; y <= most; ++y)
+      for (int x = -most; x <= most; ++x) points.push_back(DVec3(x, y, z) + 0.25);
+  std::ranges::stable_sort(points, {}, [](const DVec3& p) { return glm::dot(p, p); });
+  points.resize(count);
+  return points;
+}
+
+double ballRadius(std::size_t count) {
+  return std::cbrt(3 * static_cast<double>(count) / (4 * std::numbers::pi));
+}
+
+void place(std::span<const DVec3> drop, const Pose& pose, float spacing, Fluid& out) {
+  DVec3 centre, speed;
+  glm::dmat3 axes, rates;
+  for (int k = 0; k < 3; ++k) {
+    centre[k] = pose.centre[k].v;
+    speed[k] = pose.centre[k].d[0];
+    for (int i = 0; i < 3; ++i) {
+      axes[i][k] = pose.axes[i][k].v;
+      rates[i][k] = pose.axes[i][k].d[0];
+    }
+  }
+  for (const DVec3& x : drop) {
+    out.atoms.push_back(fluidAtom(Point3(centre + axes * x), spacing));
+    out.velocities.emplace_back(speed + rates * x);
+  }
+}
+
+void Endless::frame(int number, Fluid& out) {
+  if (number < first())
+    throw Error(fmt::format("there is no frame {}: the first is {}", number, first()),
+                Failure::usage);
+  out.kernel = metaballs::Kernel::poly6;
+  out.atoms.clear();
+  out.velocities.clear();
+  frameAfter(number - first(), out);
+}
+
+}  // namespace pbrt::motion
