@@ -168,7 +168,7 @@ void Cover::look(std::span<const Ray* const> rays, int width, std::span<Hit> hit
   for (const Ray* ray : rays) copies.push_back(*ray);
   std::ranges::fill(hits, Hit());
   fragments.resize(rays.size());
-  beam = Beam(copies, width);
+  beam.set(copies, width);
   for (const Skin& skin : skins_) {
     skin.discs.draw(beam, fragments);
     for (std::size_t i = 0; i < rays.size(); ++i)

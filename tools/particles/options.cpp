@@ -155,6 +155,16 @@ Point2i readSize(const std::string& text) {
   return *pair;
 }
 
+std::size_t readCount(const ParticleOptions& o) {
+  constexpr std::size_t kBytesOfSurfel =
+      512;  // with what the simulation and the drawing keep of it
+  if (o.particles > halfOfMemory() / kBytesOfSurfel)
+    throw Error(
+        fmt::format("--particles {} is more than the memory of this machine can take", o.particles),
+        Failure::usage);
+  return o.particles;
+}
+
 std::unique_ptr<motion::Motion> openMotion(const ParticleOptions& o) {
   if (o.files.empty()) return motion::makeMotion(o.motion, o.atoms, o.fps.value_or(60));
   motion::SequenceSettings settings;

@@ -38,6 +38,7 @@ struct FrameRange {
 FrameRange readFrames(const std::string& text, const motion::Motion& motion);
 // "512x512".
 Point2i readSize(const std::string& text);
+std::size_t readCount(const ParticleOptions& o);
 
 std::unique_ptr<motion::Motion> openMotion(const ParticleOptions& o);
 View viewOf(const ParticleOptions& o, const motion::Motion& motion, Point2i size);

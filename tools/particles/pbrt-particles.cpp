@@ -81,7 +81,7 @@ int run(const ParticleOptions& o) {
   if (!o.stats.empty()) checkReplaceable(o.stats);
 
   stopAtSignals();
-  Animation animation(*motion, camera, size, {.count = o.particles, .seed = o.seed}, o.settle);
+  Animation animation(*motion, camera, size, {.count = readCount(o), .seed = o.seed}, o.settle);
   std::deque<FrameFigures> frames;
   Writer writer;
   const Clock clock;

@@ -49,7 +49,8 @@ View viewOf(const Bounds3& given, const DVec3& up, Point2i size, double fov) {
   return view;
 }
 
-PinholeCamera::PinholeCamera(const View& view, Point2i size) : eye_(view.eye) {
+PinholeCamera::PinholeCamera(const View& view, Point2i size)
+    : eye_(view.eye), middle_(0.5F * Point2(size) - 0.5F) {
   const Axes axes = axesOf(view.look - view.eye, view.up);
   right_ = axes.right, up_ = axes.up, forward_ = axes.forward;
   const auto isUnit = [](const Vec3& v) { return std::abs(lengthSquared(v) - 1) < 1e-3F; };
@@ -59,7 +60,6 @@ PinholeCamera::PinholeCamera(const View& view, Point2i size) : eye_(view.eye) {
         "on one line",
         Failure::usage);
   const glm::dvec2 half = halfExtent(view.fov, size), pixel = 2.0 * half / glm::dvec2(size);
-  corner_ = axes.forward - half.x * axes.right + half.y * axes.up;
   stepRight_ = pixel.x * axes.right;
   stepDown_ = -pixel.y * axes.up;
 }

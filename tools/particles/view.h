@@ -32,8 +32,8 @@ class PinholeCamera {
   const Vec3& forward() const { return forward_; }
   // From the eye towards a pixel, as far as the plane at distance 1.
   Vec3 direction(int x, int y) const {
-    return corner_ + (static_cast<float>(x) + 0.5F) * stepRight_ +
-           (static_cast<float>(y) + 0.5F) * stepDown_;
+    return forward_ + (static_cast<float>(x) - middle_.x) * stepRight_ +
+           (static_cast<float>(y) - middle_.y) * stepDown_;
   }
   // The ray's space has its origin at the eye; its direction is unit.
   Ray ray(int x, int y) const;
@@ -41,7 +41,8 @@ class PinholeCamera {
  private:
   DPoint3 eye_;
   Vec3 right_, up_, forward_;
-  Vec3 corner_, stepRight_, stepDown_;  // the upper left corner; from a pixel to the next
+  Point2 middle_;              // of the picture, from the middle of its first pixel
+  Vec3 stepRight_, stepDown_;  // from a pixel to the next
 };
 
 }  // namespace pbrt

@@ -38,10 +38,14 @@ Bound boundOf(std::span<const UnitRay> rays) {
 
 }  // namespace
 
-Beam::Beam(std::span<const Ray> rays, int width) : size_(rays.size()) {
+void Beam::set(std::span<const Ray> rays, int width) {
+  thread_local std::vector<UnitRay> all, own;  // they only ever grow
+  size_ = rays.size();
+  bound_ = {};
+  patches_.clear();
+  all.clear();
   if (rays.empty()) return;
   const int height = static_cast<int>(rays.size()) / width;
-  std::vector<UnitRay> all, own;
   for (int y = 0; y < height; y += kPatchHeight)
     for (int x = 0; x < width; x += kPatchWidth) {
       Patch patch;

@@ -14,9 +14,11 @@ namespace pbrt::surfels {
 class Beam {
  public:
   Beam() = default;
+  Beam(std::span<const Ray> rays, int width) { set(rays, width); }
+
   // Row by row, `width` to a row; rays.size() is a multiple of it. A ray whose direction is zero,
-  // or of which something is not a number, sees nothing.
-  Beam(std::span<const Ray> rays, int width);
+  // or of which something is not a number, sees nothing. Asks for memory only as it grows.
+  void set(std::span<const Ray> rays, int width);
 
   std::size_t size() const { return size_; }
 
