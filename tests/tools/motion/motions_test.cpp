@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+#include <set>
+
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "tools/particles/motion/dam.h"
@@ -156,9 +159,9 @@ TEST(FluidAtom, AloneIsABallOfItsShareOfTheVolume) {
   EXPECT_NEAR(atom.weight * std::pow(1 - q, 3), 1, 1e-6);
 }
 
-// Of a cubic lattice the interior has the density 1 by definition; a gap of two spacings from the
-// walls is water at rest, too, as far as they can tell.
-TEST(Water, ALatticeBetweenWallsIsAtRestDensity) {
+// In the interior by definition; a wall stands for about what the lattice would go on with, and
+// what is beyond two of them counts twice.
+TEST(Water, ALatticeBetweenWallsHasTheDensityOfRest) {
   constexpr int side = 10;
   std::vector<Point3> lattice;
   for (int i = 0; i < side * side * side; ++i)
@@ -168,7 +171,7 @@ TEST(Water, ALatticeBetweenWallsIsAtRestDensity) {
   for (std::size_t i = 0; i < lattice.size(); ++i) {
     const Vec3 edge = glm::min(lattice[i], static_cast<float>(side) - lattice[i]);
     const int walls = (edge.x < 2) + (edge.y < 2) + (edge.z < 2);
-    EXPECT_NEAR(densities[i], 1, walls == 0 ? 1e-5 : 0.04 * walls) << i;
+    EXPECT_NEAR(densities[i], 1, walls == 0 ? 1e-5 : 0.05 * walls) << i;
   }
 }
 
@@ -215,7 +218,7 @@ TEST(Water, OfAnyCountStaysInTheTank) {
   }
 }
 
-TEST(Water, InOnePlacePartsAgain) {
+TEST(Water, HeapedUpStaysInTheTank) {
   std::vector<Point3> heap(200, Point3(0));
   for (std::size_t i = 0; i < 20; ++i) heap[i] = Point3(1);
   for (std::size_t i = 20; i < 100; ++i) heap[i].x += 1e-5F * static_cast<float>(i);

@@ -17,14 +17,24 @@ metaballs::Atom fluidAtom(const Point3& p, float spacing) {
   return {p, 2 * spacing, weight};
 }
 
+// A shell has its share of the volume, spread along a spiral, even in height and by the golden
+// angle from point to point (R. Swinbank and R. J. Purser 2006, "Fibonacci Grids").
 std::vector<DVec3> ball(std::size_t count) {
+  const double radius = ballRadius(count);
+  const int shells = std::max(1, static_cast<int>(std::round(radius)));
   std::vector<DVec3> points;
-  const int most = static_cast<int>(std::ceil(ballRadius(count))) + 2;
-  for (int z = -most; z <= most; ++z)
-    for (int y = -most; y <= most; ++y)
-      for (int x = -most; x <= most; ++x) points.push_back(DVec3(x, y, z) + 0.25);
-  std::ranges::stable_sort(points, {}, [](const DVec3& p) { return glm::dot(p, p); });
-  points.resize(count);
+  for (int shell = 0; shell < shells; ++shell) {
+    const double r = radius * (shell + 0.5) / shells;
+    const std::size_t share =
+        std::lround(static_cast<double>(count) * std::pow((shell + 1.) / shells, 3)) -
+        points.size();
+    for (std::size_t i = 0; i < share; ++i) {
+      const double z = 1 - (2 * static_cast<double>(i) + 1) / static_cast<double>(share);
+      const double angle = std::numbers::pi * (3 - std::sqrt(5.)) * static_cast<double>(i) + shell;
+      const double rim = std::sqrt(1 - z * z);
+      points.push_back(r * DVec3(rim * std::cos(angle), rim * std::sin(angle), z));
+    }
+  }
   return points;
 }
 

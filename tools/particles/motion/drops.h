@@ -12,8 +12,7 @@ namespace pbrt::motion {
 // is a ball of the volume of that cube.
 metaballs::Atom fluidAtom(const Point3& p, float spacing);
 
-// `count` points about the origin, those of a cubic lattice of spacing 1 that are next to it. That
-// lattice and its mirror image make a body-centred one.
+// `count` points of unit density, in round shells about the origin, so that a drop looks round.
 std::vector<DVec3> ball(std::size_t count);
 // The radius of so many.
 double ballRadius(std::size_t count);

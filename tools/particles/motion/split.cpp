@@ -22,7 +22,7 @@ class Split final : public Endless {
         left_(ball((static_cast<std::size_t>(atoms) - 3 * droplet_.size()) / 2)),
         right_(ball(static_cast<std::size_t>(atoms) - 3 * droplet_.size() - left_.size())),
         spacing_(kRadius / ballRadius(left_.size() + right_.size())) {
-    // Together the two make a body-centred lattice.
+    // Its mirror image, so that the two share few places.
     for (DVec3& p : right_) p = -p;
   }
 

@@ -19,7 +19,7 @@ constexpr float kSupport = 2;        // over the spacing
 constexpr std::size_t kPiece = 128;  // particles in a piece of parallel work
 constexpr float kCourant = 0.25F;    // how far a wave goes in a step, in spacings
 constexpr float kViscosity = 4;      // per second
-constexpr float kRelaxation = 0.8F;  // neighbours correct the same error at once
+constexpr float kRelaxation = 0.5F;  // neighbours correct the same error at once
 constexpr float kSoftness = 0.05F;   // of a constraint, where a particle has few neighbours
 
 Floats load(const float* numbers) {
