@@ -3,20 +3,9 @@
 #include <algorithm>
 #include <array>
 
-#include "core/base/warp.h"
 #include "shapes/metaballs/loops.h"
 
 namespace pbrt::surfels {
-namespace {
-
-constexpr std::size_t kChunk = 512;  // points that are looked at together
-
-bool isFinite(const DPoint3& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-}  // namespace
-
 inline namespace portable {
 extern const AtomLoops kAtomLoops;
 }
@@ -79,47 +68,7 @@ void AtomField::set(metaballs::Kernel kernel, std::span<const Atom> atoms,
     for (const std::uint32_t j : level) most = std::max(most, atoms[j].radius);
     levels_[levelCount_++].build(atoms, level, most);
   }
-}
-
-// Points of one cell are taken together: what touches the cell is looked up once for all of them.
-template <class Visit>
-void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) const {
-  struct Group {
-    CellKey key;
-    std::uint16_t count, end;  // in `order`
-  };
-  std::array<Group, kChunk> groups;
-  std::array<std::uint16_t, kChunk> groupOf, order;
-  for (std::size_t level = 0; level < levelCount_; ++level) {
-    const AtomHash& hash = levels_[level];
-    std::array<std::uint16_t, 2 * kChunk> table{};  // open addressing: a group + 1, or 0
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      if (!isFinite(points[i])) continue;
-      const CellKey key = hash.cellAt(points[i]);
-      std::size_t slot = key.hash() % table.size();
-      while (table[slot] > 0 && groups[table[slot] - 1U].key != key)
-        slot = (slot + 1) % table.size();
-      if (table[slot] == 0) {
-        groups[count++] = {key, 0, 0};
-        table[slot] = static_cast<std::uint16_t>(count);
-      }
-      groupOf[i] = static_cast<std::uint16_t>(table[slot] - 1U);
-      ++groups[groupOf[i]].count;
-    }
-    std::uint16_t end = 0;
-    for (std::size_t g = 0; g < count; ++g) {
-      groups[g].end = end;
-      end = static_cast<std::uint16_t>(end + groups[g].count);
-    }
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if (isFinite(points[i])) order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
-    for (std::size_t g = 0; g < count; ++g) {
-      const CellFrame frame = hash.frame(groups[g].key);
-      const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
-      hash.visit(atoms_, frame, [&](const AtomRun& run) { visit(frame, members, run); });
-    }
-  }
+  findPlaces();
 }
 
 void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) const {
@@ -132,19 +81,20 @@ void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) cons
 // In floats; where their rounding may count, in doubles.
 //
 // Rounding, in units u = 2^-24, of one term w K(q): lengths are in cell sides, a radius is at most
-// 2. The offset of an atom from the cell's centre is at most 2.5 and off by half its last place,
-// that of a point is 0.5 at most; with that of their difference, where it counts, each axis of d is
-// off by less than 5 u and d by less than 9 u, which moves W by 9 u |grad W|. q is off by less than
-// 6 u of itself, which moves W by 6 u |w K'| q = 3 u |grad W| |d| < 6 u |grad W|. K is rounded by
-// 2 kRounding u of itself (the gaussian's, of K + exp(-b), where exp(-b) is less than K or than
-// |grad W|), the weight and the product by 2 u, and the sum of n terms by n u of them all.
+// 1. The offset of an atom from the cell's centre is at most 1.5 and off by half its last place,
+// that of a point is at most 0.5; with that of their difference, where it counts, each axis of d is
+// off by less than 3 u and d by less than 6 u, which moves W by 6 u |grad W|. q is off by less than
+// 6 u of itself, which moves W by 6 u |w K'| q = 3 u |grad W| |d|. K is rounded by 2 kRounding u of
+// itself (the gaussian's, of K + exp(-b), where exp(-b) is less than K or than h |grad W| / b), the
+// weight and the product by 2 u, and the sum of n terms by n u of them all.
 void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) const {
   const AtomLoops& loops = atomLoops();
   const double rounding =
       metaballs::withKernel(kernel_, []<class K>(K) { return 2.0 * K::kRounding; });
   const float scale = 1 / fastest_;
-  std::array<double, kChunk> slopes{}, error;
-  error.fill(0x1p-24);
+  std::array<double, kChunk> slopes, error;
+  std::fill_n(slopes.begin(), points.size(), 0);
+  std::fill_n(error.begin(), points.size(), 0x1p-24);
   std::ranges::fill(out, FieldAt{});
   visitCells(points, [&](const CellFrame& frame, std::span<const std::uint16_t> members,
                          const AtomRun& atoms) {
@@ -168,7 +118,7 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
         out[j].change += perLength * fastest_ * run.change[i];
         out[j].flow += perLength * fastest_ * vector(run.flow);
         slopes[j] += perLength * run.slopes[i];
-        error[j] += 0x1p-24 * ((15 + rounding) * run.slopes[i] + terms * run.magnitude[i]);
+        error[j] += 0x1p-24 * ((9 + rounding / 4) * run.slopes[i] + terms * run.magnitude[i]);
       }
     }
   });
@@ -178,18 +128,13 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (slopes[i] > 0) out[i].flow /= slopes[i];
     const bool flat = slopes[i] == 0 && out[i].value > -1;
-    if (error[i] < 5e-5 * std::max(1.0, std::abs(out[i].value)) && !flat) continue;
+    if (error[i] < 9e-5 * std::max(1.0, std::abs(out[i].value)) && !flat) continue;
     which[count] = static_cast<std::uint16_t>(i);
     steep[count++] = points[i];
   }
   if (count == 0) return;
-  std::array<ExactSums, kChunk> sums{};
-  visitCells(std::span(steep).first(count),
-             [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
-               for (const std::uint16_t i : members)
-                 loops.addExactly(kernel_, atoms_, AtomList(run.number, run.count), velocities_,
-                                  steep[i], sums[i]);
-             });
+  std::array<ExactSums, kChunk> sums;
+  exactly(std::span(steep).first(count), sums);
   for (std::size_t i = 0; i < count; ++i) {
     const ExactSums& s = sums[i];
     // At the middle of an atom, where no slope tells whose velocity counts, its field does.
@@ -198,6 +143,16 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
                                          : DVec3(0);
     out[which[i]] = {s.value - 1, s.gradient, s.change, flow};
   }
+}
+
+void AtomField::exactly(std::span<const DPoint3> points, std::span<ExactSums> sums) const {
+  std::fill_n(sums.begin(), points.size(), ExactSums{});
+  visitCells(points,
+             [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
+               for (const std::uint16_t i : members)
+                 atomLoops().addExactly(kernel_, atoms_, AtomList(run.number, run.count),
+                                        velocities_, points[i], sums[i]);
+             });
 }
 
 void AtomField::shape(std::span<const DPoint3> points, std::span<ShapeAt> out) const {
@@ -214,35 +169,6 @@ void AtomField::shape(std::span<const DPoint3> points, std::span<ShapeAt> out) c
                  }
                });
   }
-}
-
-bool AtomField::seeds(std::uint64_t first, std::span<DPoint3> out) const {
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (!seed(first + i, out[i])) return false;
-  return true;
-}
-
-bool AtomField::seed(std::uint64_t number, DPoint3& out) const {
-  if (atoms_.empty()) return false;
-  Rng rng(hash(number));
-  for (int i = 0; i < 64; ++i) {
-    const Atom& atom = atoms_[rng.uniform(static_cast<std::uint32_t>(atoms_.size()))];
-    DPoint3 p =
-        DPoint3(atom.centre) + DVec3(uniformSphere({rng.uniform(), rng.uniform()})) *
-                                   static_cast<double>(std::cbrt(rng.uniform()) * atom.radius);
-    for (int k = 0; k < 8; ++k) {
-      FieldAt f;
-      some({&p, 1}, {&f, 1});
-      const double slope2 = lengthSquared(f.gradient);
-      if (!(std::abs(f.value) < 0.5 * atom.radius * std::sqrt(slope2))) break;
-      if (std::abs(f.value) < 1e-3) {
-        out = p;
-        return true;
-      }
-      p -= f.value / slope2 * f.gradient;
-    }
-  }
-  return false;
 }
 
 }  // namespace pbrt::surfels

@@ -21,13 +21,25 @@ class AtomField final : public MovingField {
   bool seeds(std::uint64_t first, std::span<DPoint3> out) const override;
 
  private:
-  // The next three take few points.
+  static constexpr std::size_t kChunk = 512;  // points that are looked at together
+
+  // These take at most kChunk points.
   void some(std::span<const DPoint3> points, std::span<FieldAt> out) const;
+  void exactly(std::span<const DPoint3> points, std::span<ExactSums> sums) const;
   // Calls visit(frame, members, run) with cells, which of the points are in it, and some of the
   // atoms that touch it, until all were in a run.
   template <class Visit>
   void visitCells(std::span<const DPoint3> points, const Visit& visit) const;
-  bool seed(std::uint64_t number, DPoint3& out) const;
+
+  // A place near the surface, and the support radius of an atom about there.
+  struct Place {
+    DPoint3 p{};
+    double h = 0;
+  };
+  Place propose(std::uint64_t trial, Rng& rng) const;
+  double density(const DPoint3& p) const;
+  void findPlaces();
+  bool settle(DPoint3& p, double h) const;
 
   metaballs::Kernel kernel_ = metaballs::Kernel::poly6;
   std::span<const metaballs::Atom> atoms_;
@@ -40,6 +52,52 @@ class AtomField final : public MovingField {
   std::vector<AtomHash> levels_;
   std::size_t levelCount_ = 0;
   std::vector<std::vector<std::uint32_t>> byLevel_;
+  // For seeds.
+  std::vector<double> byArea_;  // sums, up to each atom, of what it is chosen by
+  std::vector<Place> trials_, places_;
+  std::uint64_t trial_ = 0;  // number of the next one, which goes on from frame to frame
 };
+
+// Points of one cell are taken together: what touches the cell is looked up once for all of them.
+template <class Visit>
+void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) const {
+  struct Group {
+    CellKey key;
+    std::uint16_t count, end;  // in `order`
+  };
+  std::array<Group, kChunk> groups;
+  std::array<std::uint16_t, kChunk> groupOf, order;
+  for (std::size_t level = 0; level < levelCount_; ++level) {
+    const AtomHash& hash = levels_[level];
+    std::array<std::uint16_t, 2 * kChunk> table{};  // open addressing: a group + 1, or 0
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!isFinite(Vec3(points[i]))) continue;
+      const CellKey key = hash.cellAt(points[i]);
+      std::size_t slot = key.hash() % table.size();
+      while (table[slot] > 0 && groups[table[slot] - 1U].key != key)
+        slot = (slot + 1) % table.size();
+      if (table[slot] == 0) {
+        groups[count++] = {key, 0, 0};
+        table[slot] = static_cast<std::uint16_t>(count);
+      }
+      groupOf[i] = static_cast<std::uint16_t>(table[slot] - 1U);
+      ++groups[groupOf[i]].count;
+    }
+    std::uint16_t end = 0;
+    for (std::size_t g = 0; g < count; ++g) {
+      groups[g].end = end;
+      end = static_cast<std::uint16_t>(end + groups[g].count);
+    }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (isFinite(Vec3(points[i])))
+        order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
+    for (std::size_t g = 0; g < count; ++g) {
+      const CellFrame frame = hash.frame(groups[g].key);
+      const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
+      hash.visit(atoms_, frame, [&](const AtomRun& run) { visit(frame, members, run); });
+    }
+  }
+}
 
 }  // namespace pbrt::surfels

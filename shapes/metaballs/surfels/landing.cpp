@@ -25,53 +25,33 @@ struct Path {
 };
 
 // Goes on from a look at the field. False: nothing more is to be done for the point.
-class Walk {
- public:
-  Walk(double dt, double reach, double stride) : dt_(dt), reach_(reach), stride_(stride) {}
-
-  bool goOn(int look, const FieldAt& at, Path& path, Landing& l) const {
-    const double slope = glm::length(at.gradient), distance = std::abs(at.value);
-    if (!std::isfinite(at.value) || !std::isfinite(slope) || !isFinite(at.flow)) return false;
-    const DVec3 drift = look == 0 ? lag(at, l) : DVec3(0);
-    const bool drifts = slope > 0 && drift != DVec3(0);
-    if (!drifts && distance <= kOnSurface) {
-      l.there = slope > 0;
-      l.flow = at.flow, l.gradient = at.gradient, l.value = at.value;
-      return false;
-    }
-    (at.value > 0 ? path.inside : path.outside) = l.p;
-    (at.value > 0 ? path.sawInside : path.sawOutside) = true;
-    // Newton's method along the gradient, halving the way between the sides where that is no good.
-    const bool slow = look > 0 && distance > 0.5 * path.last;
-    path.last = distance;
-    if (path.bracketed() && (slow || !(slope > 0))) {
-      l.p = 0.5 * path.inside + 0.5 * path.outside;
-    } else if (!(slope > 0) || (look >= kWandering && !path.bracketed())) {
-      return false;
-    } else {
-      const DVec3 normal = at.gradient / slope;
-      const double step = -at.value / slope - glm::dot(normal, drift);
-      l.p += drift + std::clamp(step, -stride_, stride_) * normal;
-    }
-    return true;
+bool goOn(int look, double stride, const FieldAt& at, Path& path, Landing& l) {
+  const double slope = glm::length(at.gradient), distance = std::abs(at.value);
+  if (!std::isfinite(at.value) || !std::isfinite(slope) || !isFinite(at.flow)) return false;
+  if (distance <= kOnSurface) {
+    l.there = slope > 0;
+    l.flow = at.flow, l.gradient = at.gradient, l.value = at.value;
+    return false;
   }
-
- private:
-  // The velocity that carried the point was that of the start of its way. With the mean of those of
-  // both ends (Heun's method) what turns stays where it is relative to the rest.
-  DVec3 lag(const FieldAt& at, const Landing& l) const {
-    const DVec3 d = 0.5 * dt_ * (at.flow - l.flow);
-    const double length = glm::length(d);
-    return length > 0.01 * reach_ && length < stride_ ? d : DVec3(0);
+  (at.value > 0 ? path.inside : path.outside) = l.p;
+  (at.value > 0 ? path.sawInside : path.sawOutside) = true;
+  // Newton's method along the gradient, halving the way between the sides where that is no good.
+  const bool slow = look > 0 && distance > 0.5 * path.last;
+  path.last = distance;
+  if (path.bracketed() && (slow || !(slope > 0))) {
+    l.p = 0.5 * path.inside + 0.5 * path.outside;
+  } else if (!(slope > 0) || (look >= kWandering && !path.bracketed())) {
+    return false;
+  } else {
+    l.p -= std::clamp(at.value / slope, -stride, stride) * (at.gradient / slope);
   }
-
-  double dt_, reach_, stride_;
-};
+  return true;
+}
 
 }  // namespace
 
-void land(const MovingField& field, double dt, double reach, std::span<Landing> points) {
-  const Walk walk(dt, reach, 0.5 * field.grain());
+void land(const MovingField& field, std::span<Landing> points) {
+  const double stride = 0.5 * field.grain();
   for (std::size_t first = 0; first < points.size(); first += kBatch) {
     const auto batch = points.subspan(first, std::min(kBatch, points.size() - first));
     std::array<Path, kBatch> paths;
@@ -88,7 +68,8 @@ void land(const MovingField& field, double dt, double reach, std::span<Landing> 
       field.at({places.data(), left}, {answers.data(), left});
       std::size_t kept = 0;
       for (std::size_t k = 0; k < left; ++k)
-        if (walk.goOn(look, answers[k], paths[under[k]], batch[under[k]])) under[kept++] = under[k];
+        if (goOn(look, stride, answers[k], paths[under[k]], batch[under[k]]))
+          under[kept++] = under[k];
       left = kept;
     }
   }

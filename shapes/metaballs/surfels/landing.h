@@ -11,15 +11,13 @@ inline constexpr double kOnSurface = 1e-4;
 // A point on its way to the surface, and what is known where it gets there.
 struct Landing {
   DPoint3 p{};
-  DVec3 flow{};  // at first: the velocity that has carried it to p; then that of the fluid there
-  DVec3 gradient{};
+  DVec3 flow{}, gradient{};
   double value = 0;
   bool there = false;  // |f| <= kOnSurface, the gradient is not zero, all is finite
 };
 
-// `dt`: how long they have been carried, see Landing::flow; `reach`: a length of which a hundredth
-// is not seen. Each point moves by a bounded number of steps of at most half the field's grain.
-// Those that do not get to the surface are left not `there`. Thread-safe, does not allocate.
-void land(const MovingField& field, double dt, double reach, std::span<Landing> points);
+// Each point moves by a bounded number of steps of at most half the field's grain. Those that do
+// not get to the surface are left not `there`. Thread-safe, does not allocate.
+void land(const MovingField& field, std::span<Landing> points);
 
 }  // namespace pbrt::surfels

@@ -33,18 +33,17 @@ struct Surroundings {
   float place[3][kMost + 2 * kLanes], normal[3][kMost + 2 * kLanes];
   std::uint32_t count;
 
+  // Its own cell comes first: where not all are seen, at least the nearest are.
   Surroundings(const surfels::GridView& grid, std::uint64_t own) : count(0) {
-    for (int i = -1; i <= 1; ++i)
-      for (int j = -1; j <= 1; ++j)
-        for (int k = -1; k <= 1; ++k) {
-          const std::uint64_t key = surfels::keyBeside(own, i, j, k);
-          const std::uint32_t bucket = surfels::bucketOf(key, grid.shift);
-          std::uint32_t first = grid.starts[bucket], end = grid.starts[bucket + 1];
-          while (first < end && grid.keys[first] != key) ++first;
-          while (first < end && grid.keys[end - 1] != key) --end;
-          add(grid, first, end,
-              {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)});
-        }
+    for (int c = 0; c < 27; ++c) {
+      const int cell = (c + 13) % 27, i = cell / 9 - 1, j = cell / 3 % 3 - 1, k = cell % 3 - 1;
+      const std::uint64_t key = surfels::keyBeside(own, i, j, k);
+      const std::uint32_t bucket = surfels::bucketOf(key, grid.shift);
+      std::uint32_t first = grid.starts[bucket], end = grid.starts[bucket + 1];
+      while (first < end && grid.keys[first] != key) ++first;
+      while (first < end && grid.keys[end - 1] != key) --end;
+      add(grid, first, end, {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)});
+    }
     for (float* x : place) store(x + count, Floats{} + 9);  // out of everyone's reach
   }
 
@@ -98,7 +97,7 @@ surfels::Repulsion repelOne(const surfels::GridView& grid, const Surroundings& a
   const Floats total = sums(sigma, near, count, x, y, z, Floats{}, Floats{});
   surfels::Repulsion result;
   result.density = total[0];
-  result.neighbours = total[2] - 1;
+  result.neighbours = max(total[2] - 1, 0.F);
   if (const float others = total[1] - 1; others > 1e-6F) {
     const float n[3] = {nx[0], ny[0], nz[0]};
     const float out = n[0] * total[3] + n[1] * total[4] + n[2] * total[5];

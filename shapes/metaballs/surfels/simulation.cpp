@@ -73,7 +73,7 @@ void Simulation::State::step(const MovingField& field, double dt) {
   if (surfels_.empty()) return;
   sort();
   if (closeHoles(field)) sort();
-  push();
+  push(glm::length(DVec3(field.bounds().diagonal())));
   shape(field);
 }
 
@@ -88,9 +88,13 @@ void Simulation::State::place(std::size_t i, const Landing& landing) {
 // + phi F) F_x / |F_x|^2 (eq. 2), is what one step of Newton's method from p + D dt does to first
 // order, with phi = 1 / dt; landing there sees to the higher orders, too. The push does not depend
 // on dt: it is for the sake of evenness, however long a frame is.
+//
+// The velocity is that at the start of the way. By the mean of those at both ends (Heun's method)
+// the surfel should have gone further by the lag, which it does one step later: so what turns does
+// not slide off.
 Landing Simulation::State::carried(const Bounds3& within, double dt, std::size_t i) const {
   const Motion& m = motions_[i];
-  Landing l{surfels_[i].p + m.flow * dt, m.flow};
+  Landing l{surfels_[i].p + m.flow * dt + m.lag};
   if (!within.contains(Point3(l.p))) l.p = surfels_[i].p;
   l.p += report_.reach * DVec3(m.push[0], m.push[1], m.push[2]);
   return l;
@@ -98,17 +102,18 @@ Landing Simulation::State::carried(const Bounds3& within, double dt, std::size_t
 
 void Simulation::State::carry(const MovingField& field, double dt) {
   const Bounds3 bounds = field.bounds();
-  landings_.resize(surfels_.size());
+  const double longest = 0.5 * field.grain();
+  landings_.resize(surfels_.size()), lags_.resize(surfels_.size());
   std::atomic<std::size_t> jumps = 0;
   forChunks(surfels_.size(), [&](std::size_t begin, std::size_t end) {
-    // Lands those again for which `missed` holds, from where `from` says.
-    const auto again = [&](const auto& missed, const auto& from) {
+    // Lands those again that have not `arrived`, from where `from` says.
+    const auto again = [&](const auto& arrived, const auto& from) {
       std::array<Landing, kChunk> landings;
       std::array<std::size_t, kChunk> which;
       std::size_t n = 0;
       for (std::size_t i = begin; i < end; ++i)
-        if (missed(i)) landings[n] = from(i), which[n++] = i;
-      land(field, dt, report_.reach, {landings.data(), n});
+        if (!arrived(i)) landings[n] = from(i), which[n++] = i;
+      land(field, {landings.data(), n});
       for (std::size_t k = 0; k < n; ++k) landings_[which[k]] = landings[k];
     };
     const auto ownWay = [&](std::size_t i) { return carried(bounds, dt, i); };
@@ -116,28 +121,33 @@ void Simulation::State::carry(const MovingField& field, double dt) {
       const std::size_t to = partner(i);
       landings_[i] = to == i ? ownWay(i) : beside(to, ownWay(to));
     }
-    land(field, dt, report_.reach, {&landings_[begin], end - begin});
+    land(field, {&landings_[begin], end - begin});
     std::size_t jumped = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const DVec3 lag = 0.5 * dt * (landings_[i].flow - motions_[i].flow);
+      const bool counts = landings_[i].there && partner(i) == i && glm::length(lag) < longest;
+      lags_[i] = counts ? lag : DVec3(0);
+    }
+    // A jump to another sheet is none.
     again(
         [&](std::size_t i) {
           const std::size_t to = partner(i);
-          if (to == i) return false;
-          const bool same = glm::dot(landings_[i].gradient, DVec3(surfels_[to].n)) < 0;
-          jumped += landings_[i].there && same ? 1 : 0;
-          return !(landings_[i].there && same);
+          if (to == i) return true;
+          const bool there =
+              landings_[i].there && glm::dot(landings_[i].gradient, DVec3(surfels_[to].n)) < 0;
+          jumped += there ? 1 : 0;
+          return there;
         },
         ownWay);
+    again([&](std::size_t i) { return landings_[i].there; },
+          [&](std::size_t i) { return Landing{surfels_[i].p}; });
     jumps += jumped;
-    again([&](std::size_t i) { return !landings_[i].there; },
-          [&](std::size_t i) {
-            return Landing{surfels_[i].p, motions_[i].flow};
-          });
   });
   report_.moved += jumps;
   lost_.clear();
   for (std::size_t i = 0; i < surfels_.size(); ++i)
     if (landings_[i].there)
-      place(i, landings_[i]);
+      place(i, landings_[i]), motions_[i].lag = lags_[i];
     else
       lost_.push_back(static_cast<std::uint32_t>(i));
 }
@@ -152,12 +162,12 @@ void Simulation::State::sort() {
   });
 }
 
-void Simulation::State::push() {
+void Simulation::State::push(double extent) {
   neighbours_.store(surfels_);
   const auto cells = neighbours_.cells();
   repulsions_.resize(surfels_.size());
   struct Sums {
-    double density = 0, squares = 0, neighbours = 0, value = 0;
+    double density = 0, squares = 0, area = 0, value = 0;
   };
   std::vector<Sums> sums(chunks(cells.size()));
   forChunks(cells.size(), [&](std::size_t begin, std::size_t end) {
@@ -170,13 +180,13 @@ void Simulation::State::push() {
       surfels_[i].radius =
           static_cast<float>(report_.reach) * std::min(1.F, kCover * spacing(r.density));
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));
-      sum.neighbours += r.neighbours;
+      sum.area += 1 / (1.0 + r.neighbours);
       sum.value = std::max(sum.value, std::abs(static_cast<double>(motions_[i].value)));
     }
   });
   Sums all;
   for (const Sums& s : sums) {
-    all.density += s.density, all.squares += s.squares, all.neighbours += s.neighbours;
+    all.density += s.density, all.squares += s.squares, all.area += s.area;
     all.value = std::max(all.value, s.value);
   }
   const auto n = static_cast<double>(surfels_.size());
@@ -184,9 +194,10 @@ void Simulation::State::push() {
   report_.evenness = std::sqrt(std::max(0.0, all.squares / n - mean * mean)) / mean;
   evenness_ = static_cast<float>(report_.evenness);
   report_.residual = all.value;
-  // There are as many neighbours as the reach squared has area.
-  const double wanted = std::min(kNeighbours, n - 1);
-  reach_ = report_.reach * std::clamp(std::sqrt(wanted * n / all.neighbours), 0.1, 1.25);
+  // Each surfel stands for a part of the area, that within its reach shared with its neighbours:
+  // the reach for which, with that area spread evenly, each has as many neighbours as are wanted.
+  reach_ = report_.reach * std::sqrt((kNeighbours + 1) * all.area / n);
+  if (reach_ > extent) reach_ = std::max(extent, 0.1 * report_.reach);
 }
 
 void Simulation::State::shape(const MovingField& field) {

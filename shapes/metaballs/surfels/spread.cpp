@@ -51,7 +51,7 @@ std::vector<Landing> Simulation::State::look(const MovingField& field, std::size
     const std::size_t first = chunk * kSeeds, n = std::min(kSeeds, places - first);
     if (!field.seeds(looked_ + first, {seeds.data(), n})) return;
     for (std::size_t i = 0; i < n; ++i) found[first + i].p = seeds[i];
-    land(field, 0, report_.reach, {&found[first], n});
+    land(field, {&found[first], n});
   });
   looked_ += places;
   std::erase_if(found, [](const Landing& l) { return !l.there; });
@@ -59,8 +59,8 @@ std::vector<Landing> Simulation::State::look(const MovingField& field, std::size
 }
 
 void Simulation::State::set(std::size_t i, const Landing& landing) {
+  motions_[i] = {};
   place(i, landing);
-  std::fill(std::begin(motions_[i].push), std::end(motions_[i].push), 0.F);
   surfels_[i].density = 1;
   surfels_[i].radius = static_cast<float>(report_.reach);
 }
@@ -109,7 +109,7 @@ bool Simulation::State::closeHoles(const MovingField& field) {
   };
   // The hole about a place, unless a disc covers it.
   const auto holeAt = [&](const Landing& l) {
-    Hole hole{neighbours_.keyAt(l.p), true, l};
+    Hole hole{0, true, l};
     const bool covered = neighbours_.any(l.p, [&](std::size_t i) {
       const Surfel& s = surfels_[i];
       if (glm::dot(DVec3(s.n), l.gradient) >= 0) return false;
@@ -125,9 +125,16 @@ bool Simulation::State::closeHoles(const MovingField& field) {
     report_.looked += places.size();
     for (const Landing& l : places)
       if (const auto hole = holeAt(l)) holes.push_back(*hole);
-    if (64 * (holes.size() - before) <= places.size() || 32 * looks > surfels_.size()) break;
+    if (64 * (holes.size() - before) <= places.size() || 16 * looks > surfels_.size()) break;
   }
   report_.holes = holes.size();
+  // The surfels are to cover the part of the area that is not covered, too.
+  if (4 * holes.size() > report_.looked) {
+    const auto looked = static_cast<double>(report_.looked);
+    report_.reach *= std::sqrt(looked / (looked + 1 - static_cast<double>(holes.size())));
+    sort();
+  }
+  for (Hole& hole : holes) hole.key = neighbours_.keyAt(hole.at.p);
   const auto byKey = [](const Hole& a, const Hole& b) { return a.key < b.key; };
   std::stable_sort(holes.begin(), holes.end(), byKey);
   bool any = false;
@@ -140,7 +147,7 @@ bool Simulation::State::closeHoles(const MovingField& field) {
     const Normal3 normal(-glm::normalize(hole.at.gradient));
     for (std::size_t i = 1; i < n; ++i)
       places[i].p += 0.5 * report_.reach * across(normal, static_cast<float>(i) / 6);
-    land(field, 0, report_.reach, {places.data(), n});
+    land(field, {places.data(), n});
     for (std::size_t i = 0; i < n; ++i)
       if (places[i].there && glm::dot(places[i].gradient, hole.at.gradient) > 0)
         any = moveCrowded(places[i]) || any;

@@ -26,6 +26,7 @@ class Simulation::State {
   // What carries a surfel on in the next step.
   struct Motion {
     DVec3 flow{};     // of the fluid
+    DVec3 lag{};      // how far the fluid there has gone ahead
     float push[3]{};  // by its neighbours, in reaches
     float value = 0;  // f
   };
@@ -35,7 +36,7 @@ class Simulation::State {
   Landing carried(const Bounds3& within, double dt, std::size_t i) const;
   void place(std::size_t i, const Landing& landing);
   void sort();
-  void push();
+  void push(double extent);
   void shape(const MovingField& field);
   // spread.cpp
   std::size_t partner(std::size_t i) const;
@@ -51,6 +52,7 @@ class Simulation::State {
   std::vector<Surfel> surfels_, surfelsBefore_;
   std::vector<Motion> motions_, motionsBefore_;
   std::vector<Landing> landings_;
+  std::vector<DVec3> lags_;
   std::vector<Repulsion> repulsions_;
   std::vector<std::uint32_t> lost_;  // surfels that are not on the surface
   Neighbours neighbours_;

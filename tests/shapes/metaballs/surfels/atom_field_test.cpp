@@ -1,36 +1,323 @@
-// The field of moving atoms against sums in 113 bits over all atoms.
+// The field of moving atoms against sums in 113 bits over all atoms, with no cells.
 
 #include "shapes/metaballs/surfels/atom_field.h"
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
+#include "core/base/parallel.h"
 #include "tests/shapes/metaballs/quad.h"
 #include "tests/shapes/metaballs/sets.h"
 
 namespace pbrt::surfels::test {
 namespace {
 
-using metaballs::Kernel;
+using metaballs::Field;
 using metaballs::test::Quad;
 using metaballs::test::Random;
 
-TEST(AtomField, FindsItsOwnSurface) {
-  const metaballs::Field fluid = metaballs::test::fluid(Kernel::wyvill, 11, 0.25, 11);
-  AtomField field;
-  field.set(fluid.kernel(), fluid.atoms(), {});
-  std::vector<DPoint3> seeds(500);
-  ASSERT_TRUE(field.seeds(0, seeds));
-  std::vector<FieldAt> at(seeds.size());
-  field.at(seeds, at);
-  for (std::size_t i = 0; i < seeds.size(); ++i) {
-    Quad f = -1;
-    for (const metaballs::Atom& a : fluid.atoms()) {
-      const DVec3 d = seeds[i] - DPoint3(a.centre);
-      const Quad q = Quad(lengthSquared(d)) / Quad(sqr(double(a.radius)));
-      if (q < 1) f += Quad(a.weight) * (1 - q) * (1 - q) * (1 - q);
+std::vector<Vec3> someVelocities(std::size_t count, double most = 1) {
+  Random random(5);
+  std::vector<Vec3> v(count);
+  for (Vec3& one : v) one = Vec3(most * random.cube());
+  return v;
+}
+
+// The kernel and its slope.
+std::pair<Quad, Quad> kernelAt(Kernel kernel, Quad q) {
+  if (q >= 1) return {0, 0};
+  const Quad a = 1 - q;
+  switch (kernel) {
+    case Kernel::blob:
+      return {a * a, -2 * a};
+    case Kernel::gaussian: {
+      const Quad e = metaballs::test::exp(-4 * q);
+      return {e - metaballs::test::exp(Quad(-4)), -4 * e};
     }
-    EXPECT_NEAR(double(f), at[i].value, 1e-4);
-    EXPECT_LT(std::abs(at[i].value), 1e-2);
+    default:
+      return {a * a * a, -3 * a * a};
+  }
+}
+
+struct Sum {
+  Quad value = -1, change = 0;
+  DVec3 gradient{}, flow{};
+  double slopes = 0, weights = 0;  // sums of |grad W_j| and of |w_j|
+};
+Sum sumOver(const Field& field, std::span<const Vec3> velocities, const DPoint3& p) {
+  Sum sum;
+  Quad gradient[3] = {}, flow[3] = {}, slopes = 0;
+  for (std::size_t j = 0; j < field.atoms().size(); ++j) {
+    const Atom& a = field.atoms()[j];
+    const Quad d[3] = {Quad(p.x) - a.centre.x, Quad(p.y) - a.centre.y, Quad(p.z) - a.centre.z};
+    const Quad r2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2], h2 = Quad(a.radius) * a.radius;
+    const auto [k, slope] = kernelAt(field.kernel(), r2 / h2);
+    if (r2 < h2) sum.weights += std::abs(a.weight);
+    sum.value += Quad(a.weight) * k;
+    const Quad c = 2 * Quad(a.weight) * slope / h2;
+    const Quad size = metaballs::test::abs(c) * std::sqrt(static_cast<double>(r2));
+    slopes += size;
+    for (int i = 0; i < 3; ++i) {
+      gradient[i] += c * d[i];
+      if (velocities.empty()) continue;
+      sum.change -= c * d[i] * velocities[j][i];
+      flow[i] += size * velocities[j][i];
+    }
+  }
+  for (int i = 0; i < 3; ++i) {
+    sum.gradient[i] = static_cast<double>(gradient[i]);
+    if (slopes > 0) sum.flow[i] = static_cast<double>(flow[i] / slopes);
+  }
+  sum.slopes = static_cast<double>(slopes);
+  return sum;
+}
+
+// Points in and about the supports of some atoms, many of them near the surface.
+std::vector<DPoint3> pointsAbout(const Field& field, const AtomField& at, std::size_t count) {
+  Random random(11);
+  std::vector<DPoint3> points(count);
+  if (!at.seeds(0, points)) points.resize(0);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Atom& a = field.atoms()[random.uniform(static_cast<std::uint32_t>(field.atoms().size()))];
+    points.push_back(DPoint3(a.centre) + 1.1 * a.radius * random.cube());
+  }
+  points.emplace_back(1e30, 0, 0);
+  return points;
+}
+
+class AtomFieldOf : public testing::TestWithParam<std::tuple<metaballs::test::Set, Kernel>> {};
+
+TEST_P(AtomFieldOf, IsTheSumOfItsAtoms) {
+  const auto& [set, kernel] = GetParam();
+  const Field atoms = set.field(kernel);
+  const std::vector<Vec3> velocities = someVelocities(atoms.atoms().size(), 3);
+  AtomField field;
+  field.set(kernel, atoms.atoms(), velocities);
+  const std::vector<DPoint3> points =
+      pointsAbout(atoms, field, std::min<std::size_t>(300, 1000000 / atoms.atoms().size()));
+  std::vector<FieldAt> at(points.size());
+  field.at(points, at);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Sum sum = sumOver(atoms, velocities, points[i]);
+    const auto exact = static_cast<double>(sum.value);
+    EXPECT_NEAR(at[i].value, exact, 1e-4 * std::max(1.0, std::abs(exact))) << i;
+    const double slopes = sum.slopes + 1e-4 * sum.weights / field.grain();
+    EXPECT_LT(glm::length(at[i].gradient - sum.gradient), 1e-4 * slopes + 1e-300) << i;
+    EXPECT_NEAR(at[i].change, static_cast<double>(sum.change), 3e-4 * slopes + 1e-300) << i;
+    // Where slopes are next to nothing the mean is ill-conditioned.
+    if (sum.slopes * field.grain() > 1e-3 * sum.weights) {
+      EXPECT_LT(glm::length(at[i].flow - sum.flow), 1e-2) << i;
+    }
+    EXPECT_TRUE(std::isfinite(lengthSquared(at[i].flow))) << i;
+  }
+}
+
+TEST_P(AtomFieldOf, BendsAsItsGradientTurns) {
+  const auto& [set, kernel] = GetParam();
+  const Field atoms = set.field(kernel);
+  AtomField field;
+  field.set(kernel, atoms.atoms(), {});
+  const std::vector<DPoint3> points = pointsAbout(atoms, field, 40);
+  std::vector<ShapeAt> shape(points.size());
+  field.shape(points, shape);
+  std::vector<std::uint32_t> all(atoms.atoms().size());
+  for (std::uint32_t j = 0; j < all.size(); ++j) all[j] = j;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const metaballs::FieldSample exact = atoms.sample(points[i], all);
+    const auto near = [](const DVec3& a, const DVec3& b, double scale) {
+      return glm::length(a - b) <= 1e-9 * scale;
+    };
+    const double bend = exact.bend + 1e-300;
+    EXPECT_TRUE(near(shape[i].gradient, exact.gradient, bend * field.grain() + 1e-300)) << i;
+    for (int k = 0; k < 3; ++k) EXPECT_TRUE(near(shape[i].hessian[k], exact.hessian[k], bend)) << i;
+  }
+}
+
+std::vector<metaballs::test::Set> allSets() {
+  std::vector<metaballs::test::Set> sets = metaballs::test::ordinarySets(1000);
+  for (const metaballs::test::Set& set : metaballs::test::extremeSets()) sets.push_back(set);
+  const auto every = metaballs::test::anyRay;
+  sets.push_back({"radii 1e-15 and 1e15",
+                  [](Kernel k) {
+                    std::vector<Atom> atoms;
+                    for (const float h : {1e-14F, 1e-3F, 1.F, 3.F, 1e6F, 1e14F})
+                      atoms.emplace_back(Point3(0.3F * h, 0, 0), h, 1.5);
+                    return Field(k, std::move(atoms));
+                  },
+                  every});
+  sets.push_back({"weights to 1e29",
+                  [](Kernel k) {
+                    Random random(2);
+                    std::vector<Atom> atoms;
+                    for (int i = 0; i < 40; ++i)
+                      atoms.emplace_back(Point3(1.5 * random.cube()), 1.F,
+                                         std::pow(10.0, random.in(-4, 29)));
+                    return Field(k, std::move(atoms));
+                  },
+                  every});
+  return sets;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Sets, AtomFieldOf,
+    testing::Combine(testing::ValuesIn(allSets()), testing::ValuesIn(metaballs::test::kAllKernels)),
+    [](const auto& test) {
+      return std::get<0>(test.param).identifier() + "_" +
+             std::string(metaballs::kKernels[static_cast<std::size_t>(std::get<1>(test.param))]);
+    });
+
+TEST(AtomField, ChangesAsItsAtomsMove) {
+  const double dt = 1e-3;
+  for (const Kernel kernel : metaballs::test::kAllKernels) {
+    const Field atoms = metaballs::test::cloud(40, kernel, 0.2, 1, 3);
+    const std::vector<Vec3> velocities = someVelocities(40);
+    const auto moved = [&](double by) {
+      std::vector<Atom> some = atoms.atoms();
+      for (std::size_t j = 0; j < some.size(); ++j)
+        some[j] = Atom(some[j].centre + static_cast<float>(by) * velocities[j], some[j].radius,
+                       some[j].weight);
+      return Field(kernel, std::move(some));
+    };
+    AtomField field;
+    field.set(kernel, atoms.atoms(), velocities);
+    std::vector<DPoint3> points(50);
+    ASSERT_TRUE(field.seeds(0, points));
+    std::vector<FieldAt> at(points.size());
+    field.at(points, at);
+    const Field before = moved(-dt), after = moved(dt);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const double difference = static_cast<double>(sumOver(after, {}, points[i]).value -
+                                                    sumOver(before, {}, points[i]).value);
+      EXPECT_NEAR(at[i].change, difference / (2 * dt), 5e-3 * (1 + std::abs(at[i].change)));
+    }
+  }
+}
+
+TEST(AtomField, IsFiniteWhateverTheVelocities) {
+  const Field atoms = metaballs::test::cloud(40, Kernel::poly6, 0.2, 1, 3);
+  for (const double most : {0.0, 1e-38, 1e30}) {
+    const std::vector<Vec3> velocities = someVelocities(40, most);
+    AtomField field;
+    field.set(Kernel::poly6, atoms.atoms(), velocities);
+    std::vector<DPoint3> points = pointsAbout(atoms, field, 100);
+    for (const Atom& a : atoms.atoms()) points.emplace_back(a.centre);
+    points.emplace_back(std::numeric_limits<double>::quiet_NaN(), 0, 0);
+    points.emplace_back(0, std::numeric_limits<double>::infinity(), -1e308);
+    std::vector<FieldAt> at(points.size());
+    field.at(points, at);
+    for (const FieldAt& f : at) {
+      EXPECT_TRUE(std::isfinite(f.value + f.gradient.x + f.gradient.y + f.gradient.z));
+      EXPECT_TRUE(std::isfinite(f.change + f.flow.x + f.flow.y + f.flow.z));
+      EXPECT_LE(glm::length(f.flow), 1.8 * most);
+    }
+  }
+}
+
+TEST(AtomField, FlowsAsALoneAtomAtItsMiddle) {
+  const std::vector<Atom> atoms{{Point3(1, 2, 3), 2, 3}};
+  const std::vector<Vec3> velocities{{1, -2, 0.5F}};
+  AtomField field;
+  field.set(Kernel::wyvill, atoms, velocities);
+  const std::vector<DPoint3> points{{1, 2, 3}, {1.5, 2, 3}, {9, 9, 9}};
+  std::vector<FieldAt> at(3);
+  field.at(points, at);
+  EXPECT_LT(glm::length(at[0].flow - DVec3(velocities[0])), 1e-6);
+  EXPECT_LT(glm::length(at[1].flow - DVec3(velocities[0])), 1e-6);
+  EXPECT_EQ(at[2].flow, DVec3(0));
+  EXPECT_EQ(at[2].value, -1);
+}
+
+// All bits of what a field says.
+std::vector<std::uint64_t> bitsOf(const Field& atoms, std::span<const Vec3> velocities,
+                                  bool together) {
+  AtomField field;
+  field.set(atoms.kernel(), atoms.atoms(), velocities);
+  std::vector<DPoint3> points(600);
+  EXPECT_TRUE(field.seeds(7, points));
+  std::vector<FieldAt> at(points.size());
+  if (together)
+    field.at(points, at);
+  else
+    for (std::size_t i = points.size(); i-- > 0;) field.at({&points[i], 1}, {&at[i], 1});
+  std::vector<std::uint64_t> bits;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    for (const double x :
+         {points[i].x, points[i].y, points[i].z, at[i].value, at[i].gradient.x, at[i].gradient.y,
+          at[i].gradient.z, at[i].change, at[i].flow.x, at[i].flow.y, at[i].flow.z})
+      bits.push_back(std::bit_cast<std::uint64_t>(x));
+  return bits;
+}
+
+TEST(AtomField, GivesTheSameBitsForAnyThreadsAndAnyCompany) {
+  const Field atoms = metaballs::test::fluid(Kernel::gaussian, 9, 0.25, 9);
+  const std::vector<Vec3> velocities = someVelocities(atoms.atoms().size());
+  const auto first = bitsOf(atoms, velocities, true);
+  EXPECT_EQ(bitsOf(atoms, velocities, false), first);
+  for (const int threads : {1, 2, 7}) {
+    const ThreadLimit limit(threads);
+    EXPECT_EQ(bitsOf(atoms, velocities, true), first);
+  }
+}
+
+// A frame leaves nothing behind in the next but the number of its trials.
+TEST(AtomField, ForgetsEarlierFrames) {
+  const Field many = metaballs::test::fluid(Kernel::wyvill, 12, 0.25, 12);
+  const Field few = metaballs::test::unlikeRadii(Kernel::blob);
+  AtomField used, fresh;
+  used.set(many.kernel(), many.atoms(), {});
+  used.set(few.kernel(), few.atoms(), {});
+  fresh.set(few.kernel(), few.atoms(), {});
+  const std::vector<DPoint3> points = pointsAbout(few, fresh, 200);
+  std::vector<FieldAt> a(points.size()), b(points.size());
+  used.at(points, a);
+  fresh.at(points, b);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_EQ(a[i].value, b[i].value);
+    EXPECT_EQ(a[i].gradient, b[i].gradient);
+  }
+  EXPECT_EQ(used.bounds().lo, fresh.bounds().lo);
+  used.set(Kernel::poly6, {}, {});
+  EXPECT_TRUE(used.bounds().empty());
+  EXPECT_FALSE(used.seeds(0, std::span(std::vector<DPoint3>(3).data(), 3)));
+}
+
+TEST(AtomLoops, AreTheSameOnAllInstructionSets) {
+  Random random(3);
+  for (const Kernel kernel : metaballs::test::kAllKernels) {
+    const Field atoms = metaballs::test::cloud(100, kernel, 0.2, 1, 3);
+    const std::vector<Vec3> velocities = someVelocities(100);
+    std::vector<std::uint32_t> all(100);
+    for (std::uint32_t j = 0; j < all.size(); ++j) all[j] = j;
+    for (int i = 0; i < 50; ++i) {
+      const CellFrame cell{2.0 * random.cube(), random.in(0.3, 1.3), 1e-6};
+      std::vector<std::uint32_t> numbers;
+      std::vector<std::uint64_t> first;
+      for (const AtomLoops* loops : allAtomLoops()) {
+        AtomRun run;
+        for (std::size_t k = 0; k < all.size();)
+          k += loops->gather(atoms.atoms(), AtomList(all).subspan(k), cell, run);
+        PointRun points{};
+        points.count = 17;
+        Random places(static_cast<std::uint64_t>(i));
+        for (std::size_t k = 0; k < 24; ++k)
+          for (auto& axis : points.p) axis[k] = static_cast<float>(places.in(-0.5, 0.5));
+        loops->add(kernel, run, velocities, 0.7F, points);
+        ExactSums exact;
+        loops->addExactly(kernel, atoms.atoms(), AtomList(run.number, run.count), velocities,
+                          cell.centre, exact);
+        std::vector<std::uint64_t> bits(run.number, run.number + run.count);
+        for (std::size_t k = 0; k < points.count; ++k)
+          for (const float* sum :
+               {points.value, points.magnitude, points.gradient[0], points.gradient[2],
+                points.slopes, points.change, points.flow[0], points.flow[2]})
+            bits.push_back(std::bit_cast<std::uint32_t>(sum[k]));
+        for (const double x : {exact.value, exact.magnitude, exact.gradient.x, exact.slopes,
+                               exact.change, exact.flow.y, exact.weighed.z})
+          bits.push_back(std::bit_cast<std::uint64_t>(x));
+        if (first.empty()) first = bits;
+        EXPECT_EQ(bits, first);
+      }
+    }
   }
 }
 
