@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMost = 1 << 24;   // surfels of a scene
 constexpr std::size_t kLeast = 32;  // of a surface
+constexpr std::size_t kCells = 1 << 17;
 constexpr std::size_t kShare = 256;
 constexpr int kPasses = 64;  // surfaces that a ray passes by
 
@@ -39,11 +40,13 @@ Cover::Cover(const World& world, Point2i resolution, const Settings& settings) :
   alone_ = all.alone;
   std::ranges::sort(all.surfaces, {},
                     [](const ImplicitSurface& s) { return place(s.instance, s.geometry); });
+  // Many surfaces share the boxes by which they are known.
+  const std::size_t cells = std::clamp<std::size_t>(kCells / (all.surfaces.size() + 1), 64, 4096);
   std::vector<std::unique_ptr<StillField>> fields;
   double area = 0;
   for (const ImplicitSurface& surface : all.surfaces) {
     skins_.push_back({surface, surface.toRender.inverse()});
-    fields.push_back(std::make_unique<StillField>(*surface.field, surface.toRender));
+    fields.push_back(std::make_unique<StillField>(*surface.field, surface.toRender, cells));
     area += fields.back()->area();
   }
   if (!(area > 0)) return;
@@ -58,7 +61,7 @@ Cover::Cover(const World& world, Point2i resolution, const Settings& settings) :
     for (const Surfel& surfel : simulation.surfels())
       if (field.holds(surfel.p)) surfels[i].push_back(surfel);
   });
-  for (std::uint32_t i = 0; i < skins_.size(); ++i) cover(i, std::move(surfels[i]));
+  for (std::uint32_t i = 0; i < skins_.size(); ++i) cover(i, surfels[i]);
 }
 
 // By quality: neighbours are to be 3 / quality pixels apart.
@@ -97,30 +100,28 @@ double Cover::pixelsPerArea(Point2i resolution) const {
 
 // Where a surfel finds no surface below, as in a hole of an alpha texture, it takes what its
 // neighbour found.
-void Cover::cover(std::uint32_t number, std::vector<Surfel> surfels) {
+void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
   Skin& skin = skins_[number];
-  skin.firstBase = static_cast<std::uint32_t>(bases_.size());
-  std::vector<std::optional<SurfaceInteraction>> points(surfels.size());
+  const std::size_t first = bases_.size();
+  skin.firstBase = static_cast<std::uint32_t>(first);
+  bases_.resize(first + surfels.size());
+  const std::span<Base> bases = std::span(bases_).subspan(first);
   parallelFor((surfels.size() + kShare - 1) / kShare, [&](std::size_t k) {
-    for (std::size_t i = k * kShare; i < std::min((k + 1) * kShare, surfels.size()); ++i)
-      points[i] = below(surfels[i], skin);
+    for (std::size_t i = k * kShare; i < std::min((k + 1) * kShare, surfels.size()); ++i) {
+      if (const auto at = below(surfels[i], skin))
+        bases[i] = {at->p, at->dpdu, at->dpdv, at->dndu, at->dndv, at->uv, at->primitive, number};
+    }
   });
-  const auto first = std::ranges::find_if(points, [](const auto& p) { return p.has_value(); });
-  if (first == points.end()) return;
-  skin.discs.set(surfels, DPoint3(0));
-  skin.anywhere = **first;
-  skin.reversed =
-      glm::dot((*first)->n, surfels[static_cast<std::size_t>(first - points.begin())].n) < 0;
-  const SurfaceInteraction* last = &**first;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (points[i]) last = &*points[i];
-    const float r = surfels[i].radius;
-    const float* const b = surfels[i].bend;
-    const float bend = std::sqrt(b[0] * b[0] + b[1] * b[1] + b[2] * b[2] +
-                                 2 * (b[3] * b[3] + b[4] * b[4] + b[5] * b[5]));
-    bases_.push_back({last->p, last->dpdu, last->dpdv, last->dndu, last->dndv, last->uv,
-                      std::min(0.5F * bend * r * r, r), last->primitive, number});
+  const auto found = std::ranges::find(bases, number, &Base::skin);
+  if (found == bases.end()) return bases_.resize(first);
+  for (Base last = *found; Base & base : bases) {
+    if (base.skin != number) base = last;
+    last = base;
   }
+  const Surfel& surfel = surfels[static_cast<std::size_t>(found - bases.begin())];
+  skin.anywhere = *below(surfel, skin);
+  skin.reversed = glm::dot(skin.anywhere.n, surfel.n) < 0;
+  skin.discs.set(surfels, DPoint3(0));
 }
 
 // The surface that is nearest to the surfel along its normal.
@@ -202,8 +203,8 @@ SurfaceInteraction Cover::surface(const RayDifferential& ray, const Hit& hit) co
   s.p = ray.at(hit.t);
   s.n = s.ns = skin.reversed ? -normalOf(hit) : normalOf(hit);
   s.wo = -glm::normalize(ray.d);
-  s.error = base.error + 8 * std::numeric_limits<float>::epsilon() *
-                             (glm::length(ray.o) + hit.t * glm::length(ray.d));
+  s.error =
+      8 * std::numeric_limits<float>::epsilon() * (glm::length(ray.o) + hit.t * glm::length(ray.d));
   s.time = ray.time;
   s.objectP = skin.toField.point(DPoint3(s.p));
   s.primitive = base.primitive;
@@ -222,6 +223,21 @@ SurfaceInteraction Cover::surface(const RayDifferential& ray, const Hit& hit) co
   s.dndv = base.dndv;
   if (ray.hasDifferentials) setFootprint(s, ray);
   return s;
+}
+
+// Steps of f / |gradient| along the normal, a little too long, until the field is below zero.
+float Cover::depth(const Hit& hit, const SurfaceInteraction& at) const {
+  if (!isImplicit(hit)) return 0;
+  const Skin& skin = skins_[bases_[hit.primitive].skin];
+  const DVec3 up = skin.toField.vector(DVec3(skin.reversed ? -at.n : at.n));
+  double depth = 0;
+  for (int i = 0; i < 8; ++i) {
+    const FieldPoint f = skin.surface.field->at(at.objectP + depth * up);
+    const double step = 1.1 * f.value / glm::length(skin.surface.toRender.normal(f.gradient));
+    if (!(step > 0 && std::isfinite(step))) break;
+    depth += step;
+  }
+  return static_cast<float>(depth);
 }
 
 }  // namespace pbrt::surfels

@@ -24,6 +24,8 @@ class Cover {
   void look(std::span<const Ray* const> rays, int width, std::span<Hit> hits) const;
   // Of a hit of look().
   SurfaceInteraction surface(const RayDifferential& ray, const Hit& hit) const;
+  // How far the point of that hit is below the true surface, which is in the way of its light.
+  float depth(const Hit& hit, const SurfaceInteraction& at) const;
 
  private:
   // What a surfel knows of the surface below.
@@ -32,9 +34,8 @@ class Cover {
     Vec3 dpdu{}, dpdv{};
     Normal3 dndu{}, dndv{};
     Point2 uv{};
-    float error = 0;  // how far the disc may be off the surface
     std::uint32_t primitive = 0;
-    std::uint32_t skin = 0;
+    std::uint32_t skin = Hit::kNone;
   };
 
   // One surface.
@@ -49,7 +50,7 @@ class Cover {
 
   std::size_t count(double area, Point2i resolution, const Settings& settings) const;
   double pixelsPerArea(Point2i resolution) const;
-  void cover(std::uint32_t number, std::vector<Surfel> surfels);
+  void cover(std::uint32_t number, std::span<const Surfel> surfels);
   std::optional<SurfaceInteraction> below(const Surfel& surfel, const Skin& skin) const;
   // A hit of which the world says that it is of an implicit surface.
   bool isImplicit(const Hit& hit) const;

@@ -49,6 +49,7 @@ class SurfaceParticles final : public SamplingIntegrator {
     const Bsdf bsdf = world.bsdf(at, scratch);
     Spectrum L = at.light ? at.light->emitted(at.p, at.n, at.wo) : Spectrum(0);
     if (!bsdf.has(kDiffuse | kGlossy)) return L;
+    if (shadows_) at.error += cover_->depth(hit, at);
     // One sample of each light.
     ShadowedSum direct(world);
     for (const Light* light : world.lights()) {
