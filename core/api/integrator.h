@@ -45,13 +45,33 @@ class Integrator {
 // makes the samples, traces the camera rays in packets and adds the results to the film.
 class SamplingIntegrator : public Integrator {
  public:
+  static constexpr int kBlock = 4;
+  static_assert(kBlock * kBlock == World::kBatch);
+
   ~SamplingIntegrator() override;
   void render(const World& world, const Sampler& sampler, Film& film,
               RenderControl& control) const final;
   const SamplingIntegrator* sampling() const final { return this; }
 
-  // Radiance that arrives at the origin of `ray` against its direction; `hit` is where the ray
-  // first meets the world, which the caller has found (not found: it escapes).
+  // Called before the first rays of each render, within its limit of threads; `resolution` is that
+  // of the whole picture. May throw Error.
+  virtual void prepare(const World& /*world*/, Point2i /*resolution*/) const {}
+  // The camera rays of so many by so many neighbouring pixels are looked at together; 32 at most.
+  virtual int blockWidth() const { return kBlock; }
+  // What such rays see first, row by row, `width` to a row; a block may be cut off at the border of
+  // the picture. Instead of what the world has there an integrator may find what it has itself: it
+  // then gives those hits their meaning, in surface(); t, geometry and instance are as in any.
+  virtual void look(const World& world, std::span<const Ray* const> rays, int /*width*/,
+                    std::span<Hit> hits) const {
+    world.intersect(rays, hits);
+  }
+  // The point that a hit of look() names; it must be found.
+  virtual SurfaceInteraction surface(const World& world, const RayDifferential& ray,
+                                     const Hit& hit) const {
+    return world.surface(ray, hit);
+  }
+  // Radiance that arrives at the origin of `ray` against its direction; `hit` is what look() has
+  // found for it (not found: it escapes).
   // Called from many threads at once; sampler and scratch are the thread's own.
   virtual Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit,
                       Sampler& sampler, Scratch& scratch) const = 0;
@@ -66,6 +86,18 @@ class VolumeIntegrator : public SamplingIntegrator {
   ~VolumeIntegrator() override;
   const VolumeIntegrator* volume() const final { return this; }
 
+  void prepare(const World& world, Point2i resolution) const final {
+    surface_.prepare(world, resolution);
+  }
+  int blockWidth() const final { return surface_.blockWidth(); }
+  void look(const World& world, std::span<const Ray* const> rays, int width,
+            std::span<Hit> hits) const final {
+    surface_.look(world, rays, width, hits);
+  }
+  SurfaceInteraction surface(const World& world, const RayDifferential& ray,
+                             const Hit& hit) const final {
+    return surface_.surface(world, ray, hit);
+  }
   Spectrum Li(const World& world, const RayDifferential& ray, const Hit& hit, Sampler& sampler,
               Scratch& scratch) const final {
     return through(world, ray, hit, surface_.Li(world, ray, hit, sampler, scratch), sampler);

@@ -58,6 +58,9 @@ struct SurfaceInteraction {
   Frame frame() const { return Frame::fromZX(ns, tangent); }
 };
 
+// Sets where the neighbours of the ray, which must have differentials, meet the tangent plane.
+void setFootprint(SurfaceInteraction& s, const RayDifferential& ray);
+
 // The one rule by which rays start: off the surface by its error bound, along the geometric
 // normal to the side of w, then rounded away, so that the start is certainly on that side.
 inline Point3 offsetOrigin(const Point3& p, float error, const Normal3& n, const Vec3& w) {

@@ -6,6 +6,7 @@
 #include <tbb/task_arena.h>
 
 #include <array>
+#include <vector>
 
 #include "core/base/parallel.h"
 #include "core/scene/accel.h"
@@ -13,11 +14,6 @@
 namespace pbrt {
 
 namespace {
-
-// Camera rays are traced in packets of 4 x 4 neighbouring pixels.
-constexpr int kGroup = 4;
-constexpr int kBatch = kGroup * kGroup;
-static_assert(kBatch == World::kBatch);
 
 // The place u of a pixel. It is in the pixel still when the sum is rounded.
 Point2 inPixel(Point2i pixel, Point2 u) {
@@ -29,16 +25,17 @@ Point2 inPixel(Point2i pixel, Point2 u) {
 
 // What one thread works with.
 struct Worker {
-  explicit Worker(const Sampler& prototype) {
+  Worker(const Sampler& prototype, std::size_t block)
+      : samplers(block), samples(block), cameraRays(block), rays(block), hits(block) {
     for (auto& sampler : samplers) sampler = prototype.clone();
   }
 
-  // One sampler for each ray of a packet: they are all in the middle of their sample at once.
-  std::array<std::unique_ptr<Sampler>, kBatch> samplers;
-  std::array<CameraSample, kBatch> samples;
-  std::array<CameraRay, kBatch> cameraRays;
-  std::array<const Ray*, kBatch> rays{};
-  std::array<Hit, kBatch> hits;
+  // For each ray of a block. They are all in the middle of their sample at once.
+  std::vector<std::unique_ptr<Sampler>> samplers;
+  std::vector<CameraSample> samples;
+  std::vector<CameraRay> cameraRays;
+  std::vector<const Ray*> rays;
+  std::vector<Hit> hits;
   std::array<std::byte, 1 << 14> memory;
   Scratch scratch{memory.data(), memory.size()};
 };
@@ -49,18 +46,20 @@ struct TileJob {
   Film& film;
   RenderControl& control;
   float differentialScale;
+  int blockWidth;
 
   void render(int tile, Worker& worker) const {
     const Bounds2i pixels = film.tilePixels(tile);
     // Sample by sample, not pixel by pixel: the sums grow in the same order when the samples come
     // in several passes.
     for (std::uint32_t s = control.firstSample; s < control.endSample; ++s)
-      for (int y = pixels.lo.y; y < pixels.hi.y; y += kGroup)
-        for (int x = pixels.lo.x; x < pixels.hi.x; x += kGroup)
-          renderGroup(tile, intersect(pixels, {{x, y}, {x + kGroup, y + kGroup}}), s, worker);
+      for (int y = pixels.lo.y; y < pixels.hi.y; y += blockWidth)
+        for (int x = pixels.lo.x; x < pixels.hi.x; x += blockWidth)
+          renderBlock(tile, intersect(pixels, {{x, y}, {x + blockWidth, y + blockWidth}}), s,
+                      worker);
   }
 
-  void renderGroup(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
+  void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
     const bool lens = world.camera().usesLens();
     int n = 0;
     for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
@@ -79,7 +78,8 @@ struct TileJob {
         worker.rays[n] = &worker.cameraRays[n].ray;
       }
     const auto count = static_cast<std::size_t>(n);
-    world.intersect({worker.rays.data(), count}, {worker.hits.data(), count});
+    integrator.look(world, {worker.rays.data(), count}, pixels.width(),
+                    {worker.hits.data(), count});
     for (int i = 0; i < n; ++i) {
       CameraRay& camera = worker.cameraRays[i];
       Hit& hit = worker.hits[i];
@@ -119,7 +119,7 @@ struct TileJob {
 
   FirstSurface firstSurface(const Point3& eye, const RayDifferential& ray, const Hit& hit,
                             Scratch& scratch) const {
-    SurfaceInteraction at = world.surface(ray, hit);
+    SurfaceInteraction at = integrator.surface(world, ray, hit);
     Spectrum albedo(0);
     if (film.stores(kAlbedo | kNormal)) {  // a bump map turns the normal
       const Bsdf bsdf = world.bsdf(at, scratch);
@@ -138,12 +138,14 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
   const float samples = control.samplesPerPixel ? static_cast<float>(control.samplesPerPixel)
                                                 : static_cast<float>(sampler.samplesPerPixel());
   const float scale = 1 / std::sqrt(samples);
-  const TileJob job{*this, world, film, control, scale};
+  const TileJob job{*this, world, film, control, scale, blockWidth()};
+  const auto block = static_cast<std::size_t>(job.blockWidth * job.blockWidth);
   const int threads = control.threads > 0 ? control.threads : defaultThreads();
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
   tbb::task_arena arena(threads);
-  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler); });
+  tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler, block); });
   arena.execute([&] {
+    prepare(world, film.resolution());
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film.tiles(), 1),
         [&](const tbb::blocked_range<int>& range) {

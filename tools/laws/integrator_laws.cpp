@@ -38,6 +38,7 @@ void expectSame(Judge& judge, const Stage& stage, const Image& a, const Image& b
 void everySampleIsFinite(const Stage& stage, const SamplingIntegrator& integrator, Judge& judge) {
   const auto sampler = stage.sampler(1, 4);
   Scratch scratch;
+  integrator.prepare(stage, Stage::kResolution);
   for (int y = 0; y < Stage::kResolution.y; ++y)
     for (int x = 0; x < Stage::kResolution.x; ++x)
       for (std::uint32_t s = 0; s < 4; ++s) {
@@ -45,7 +46,10 @@ void everySampleIsFinite(const Stage& stage, const SamplingIntegrator& integrato
         CameraSample sample;
         sample.film = Point2(x, y) + sampler->pixel2D();
         const RayDifferential ray = stage.camera().generate(sample, stage.filters()).ray;
-        const Spectrum L = integrator.Li(stage, ray, stage.intersect(ray), *sampler, scratch);
+        Hit hit;
+        const Ray* const only = &ray;
+        integrator.look(stage, {&only, 1}, 1, {&hit, 1});
+        const Spectrum L = integrator.Li(stage, ray, hit, *sampler, scratch);
         scratch.release();
         judge.expect(isFinite(L) && L.x >= 0 && L.y >= 0 && L.z >= 0,
                      "{}: Li of sample {} of pixel ({}, {}) is {}; ray o {} d {}", stage.name(), s,

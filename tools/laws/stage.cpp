@@ -42,7 +42,11 @@ std::vector<StageText> stageTexts() {
       "Shape \"sphere\" \"float radius\" 0.7 AttributeEnd\n"
       "AttributeBegin MediumInterface \"smoke\" \"\" Material \"none\" Translate 0.6 1 -1.6 "
       "Shape \"sphere\" \"float radius\" 0.9 AttributeEnd";
+  const std::string drops =
+      "Material \"plastic\" Shape \"metaballs\" \"point3 P\" [-0.3 0.7 0 0.4 0.8 0.3] "
+      "\"float radius\" [1.2 0.9]\n";
   return {{"a ball under a point light", floor + ball + lamp},
+          {"metaballs under a point light", floor + drops + lamp},
           {"a mirror within glass under an area light", floor + mirrorInGlass},
           {"a ball in a sky", floor + ball + sky},
           {"a ball in fog", floor + ball + lamp + fog},

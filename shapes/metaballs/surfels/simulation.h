@@ -3,6 +3,7 @@
 // which stands for a small disc of it. J. van Kooten, G. van den Bergen and A. Telea 2007,
 // "Point-Based Visualization of Metaballs on a GPU", after Witkin and Heckbert 1994.
 
+#include <memory>
 #include <vector>
 
 #include "shapes/metaballs/surfels/moving_field.h"
@@ -11,10 +12,10 @@ namespace pbrt::surfels {
 
 // A disc on the surface.
 struct Surfel {
-  DPoint3 p{};        // on the surface: |f| < 1e-3
-  Normal3 n{};        // unit, outward: -gradient
-  float radius = 0;   // of the disc; together the discs leave no gap
-  float density = 0;  // sigma: sum of the kernels of the surfels about it
+  DPoint3 p{};         // on the surface: |f| < 1e-3
+  Normal3 n{0, 0, 1};  // unit, outward: -gradient
+  float radius = 0;    // of the disc; together the discs leave no gap
+  float density = 0;   // sigma: sum of the kernels of the surfels about it, its own 1 included
   // How the normal turns: that at p + x, x across n, is along n + B x, where B is symmetric:
   // xx, yy, zz, xy, xz, yz.
   float bend[6] = {};
@@ -36,23 +37,24 @@ class Simulation {
     std::size_t looked = 0;  // places looked at
   };
 
+  // Throws std::invalid_argument for a count of 2^31 or more.
   explicit Simulation(const Settings& settings);
+  ~Simulation();
 
   // Carries the surfels on to the surface of `field`, which is now where it is dt after the last
-  // step's. dt may be anything finite from 0 on, and the field anything: what cannot be followed is
-  // set anew. The first step makes the surfels. Uses all threads; the bits do not depend on their
-  // number.
+  // step's. dt may be anything finite from 0 on (else std::invalid_argument), and the field
+  // anything: what cannot be followed is set anew. The first step makes the surfels. Uses all
+  // threads; the bits do not depend on their number.
   void step(const MovingField& field, double dt);
 
   // As many as were asked for; none while there is no surface. In an order in which neighbours are
   // mostly near each other; it changes from step to step.
-  std::span<const Surfel> surfels() const { return surfels_; }
-  const Report& report() const { return report_; }
+  std::span<const Surfel> surfels() const;
+  const Report& report() const;
 
  private:
-  Settings settings_;
-  std::vector<Surfel> surfels_;
-  Report report_;
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace pbrt::surfels

@@ -1,0 +1,243 @@
+#include "integrators/surfaceparticles/cover.h"
+
+#include <tuple>
+
+#include "core/base/parallel.h"
+#include "core/base/sphere_map.h"
+#include "shapes/metaballs/surfels/simulation.h"
+
+namespace pbrt::surfels {
+namespace {
+
+constexpr double kMost = 1 << 24;   // surfels of a scene
+constexpr std::size_t kLeast = 32;  // of a surface
+constexpr std::size_t kCells = 1 << 17;
+constexpr std::size_t kShare = 256;
+constexpr int kPasses = 64;  // surfaces that a ray passes by
+
+auto place(std::uint32_t instance, std::uint32_t geometry) {
+  return std::tuple(instance, geometry);
+}
+
+// A unit vector in the two numbers of a hit.
+void setNormal(Hit& hit, const Normal3& n) {
+  const Point2 st(squareFromSphere(SphereMap::equalarea, DVec3(n)));
+  hit.u = st.x, hit.v = st.y;
+}
+Normal3 normalOf(const Hit& hit) {
+  return Normal3(sphereFromSquare(SphereMap::equalarea, DVec2(hit.u, hit.v)));
+}
+
+// A ray that goes on behind what it met there.
+void passBy(Ray& ray, float t) {
+  ray.tMin = std::nextafter(t + 1e-6F * std::abs(t), kInfinity);
+}
+
+}  // namespace
+
+Cover::Cover(const World& world, Point2i resolution, const Settings& settings) : world_(world) {
+  ImplicitSurfaces all = world.implicitSurfaces();
+  alone_ = all.alone;
+  std::ranges::sort(all.surfaces, {},
+                    [](const ImplicitSurface& s) { return place(s.instance, s.geometry); });
+  // Many surfaces share the boxes by which they are known.
+  const std::size_t cells = std::clamp<std::size_t>(kCells / (all.surfaces.size() + 1), 64, 4096);
+  std::vector<std::unique_ptr<StillField>> fields;
+  double area = 0;
+  for (const ImplicitSurface& surface : all.surfaces) {
+    skins_.push_back({surface, surface.toRender.inverse()});
+    fields.push_back(std::make_unique<StillField>(*surface.field, surface.toRender, cells));
+    area += fields.back()->area();
+  }
+  if (!(area > 0)) return;
+  const auto perArea = static_cast<double>(count(area, resolution, settings)) / area;
+  std::vector<std::vector<Surfel>> surfels(skins_.size());
+  parallelFor(skins_.size(), [&](std::size_t i) {
+    const StillField& field = *fields[i];
+    if (!(field.area() > 0)) return;
+    const auto n = static_cast<std::size_t>(perArea * field.area() + 0.5);
+    Simulation simulation({std::max(n, kLeast), i});
+    for (int step = 0; step < settings.steps; ++step) simulation.step(field, 0);
+    for (const Surfel& surfel : simulation.surfels())
+      if (field.holds(surfel.p)) surfels[i].push_back(surfel);
+  });
+  for (std::uint32_t i = 0; i < skins_.size(); ++i) cover(i, surfels[i]);
+}
+
+// By quality: neighbours are to be 3 / quality pixels apart.
+std::size_t Cover::count(double area, Point2i resolution, const Settings& settings) const {
+  if (!(settings.quality > 0)) return static_cast<std::size_t>(settings.particles);
+  const double n = area * pixelsPerArea(resolution) * sqr<double>(settings.quality / 3);
+  return static_cast<std::size_t>(std::clamp(n, 1.0, kMost));
+}
+
+// Over how many pixels a unit of area is spread that faces the camera: the mean over those parts of
+// the picture that show an implicit surface.
+double Cover::pixelsPerArea(Point2i resolution) const {
+  constexpr int across = 64;
+  double sum = 0;
+  int seen = 0;
+  for (int y = 0; y < across; ++y)
+    for (int x = 0; x < across; ++x) {
+      CameraSample sample;
+      sample.film = (Point2(x, y) + 0.5F) / float{across} * Point2(resolution);
+      sample.lens = Point2(0.5F);
+      const CameraRay camera = world_.camera().generate(sample, true);
+      if (!(camera.weight > 0)) continue;
+      const Hit hit = world_.intersect(camera.ray);
+      if (!hit.found() || !isImplicit(hit)) continue;
+      const RayDifferential& ray = camera.ray;
+      const Point3 p = ray.at(hit.t);
+      const Vec3 dx = ray.rxOrigin + hit.t * ray.rxDirection - p,
+                 dy = ray.ryOrigin + hit.t * ray.ryDirection - p;
+      const double pixel = std::abs(glm::dot(glm::cross(dx, dy), glm::normalize(ray.d)));
+      if (!(pixel > 0)) continue;
+      sum += 1 / pixel;
+      ++seen;
+    }
+  return seen > 0 ? sum / seen : 0;
+}
+
+// Where a surfel finds no surface below, as in a hole of an alpha texture, it takes what its
+// neighbour found.
+void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
+  Skin& skin = skins_[number];
+  const std::size_t first = bases_.size();
+  skin.firstBase = static_cast<std::uint32_t>(first);
+  bases_.resize(first + surfels.size());
+  const std::span<Base> bases = std::span(bases_).subspan(first);
+  parallelFor((surfels.size() + kShare - 1) / kShare, [&](std::size_t k) {
+    for (std::size_t i = k * kShare; i < std::min((k + 1) * kShare, surfels.size()); ++i) {
+      if (const auto at = below(surfels[i], skin))
+        bases[i] = {at->p, at->dpdu, at->dpdv, at->dndu, at->dndv, at->uv, at->primitive, number};
+    }
+  });
+  const auto found = std::ranges::find(bases, number, &Base::skin);
+  if (found == bases.end()) return bases_.resize(first);
+  for (Base last = *found; Base & base : bases) {
+    if (base.skin != number) base = last;
+    last = base;
+  }
+  const Surfel& surfel = surfels[static_cast<std::size_t>(found - bases.begin())];
+  skin.anywhere = *below(surfel, skin);
+  skin.reversed = glm::dot(skin.anywhere.n, surfel.n) < 0;
+  skin.discs.set(surfels, DPoint3(0));
+}
+
+// The surface that is nearest to the surfel along its normal.
+std::optional<SurfaceInteraction> Cover::below(const Surfel& surfel, const Skin& skin) const {
+  const float height = surfel.radius;
+  RayDifferential ray;
+  ray.d = -surfel.n;
+  ray.o = Point3(surfel.p) + height * surfel.n;
+  ray.tMax = 2 * height;
+  ray.time = std::numeric_limits<float>::lowest();
+  Hit nearest;
+  for (int i = 0; i < kPasses; ++i) {
+    const Hit hit = world_.intersect(ray);
+    if (!hit.found()) break;
+    if (skin.surface.isOf(hit) && std::abs(hit.t - height) < std::abs(nearest.t - height))
+      nearest = hit;
+    passBy(ray, hit.t);
+  }
+  ray.tMin = 0;
+  if (!nearest.found()) return {};
+  return world_.surface(ray, nearest);
+}
+
+bool Cover::isImplicit(const Hit& hit) const {
+  const auto found = std::ranges::lower_bound(
+      skins_, place(hit.instance, hit.geometry), {},
+      [](const Skin& s) { return place(s.surface.instance, s.surface.geometry); });
+  return found != skins_.end() && found->surface.isOf(hit);
+}
+
+Hit Cover::passImplicit(Ray ray, Hit hit) const {
+  for (int i = 0; i < kPasses && hit.found() && isImplicit(hit); ++i) {
+    passBy(ray, hit.t);
+    hit = world_.intersect(ray);
+  }
+  return hit.found() && isImplicit(hit) ? Hit() : hit;
+}
+
+void Cover::look(std::span<const Ray* const> rays, int width, std::span<Hit> hits) const {
+  // Kept for the next block, so that no memory is asked for.
+  thread_local std::vector<Ray> copies;
+  thread_local std::vector<Fragment> fragments;
+  thread_local Beam beam;
+  copies.clear();
+  for (const Ray* ray : rays) copies.push_back(*ray);
+  std::ranges::fill(hits, Hit());
+  fragments.resize(rays.size());
+  beam.set(copies, width);
+  for (const Skin& skin : skins_) {
+    skin.discs.draw(beam, fragments);
+    for (std::size_t i = 0; i < rays.size(); ++i)
+      if (const Fragment& f = fragments[i]; f.t < hits[i].t) {
+        hits[i] = {
+            f.t, 0, 0, skin.firstBase + f.surfel, skin.surface.geometry, skin.surface.instance};
+        setNormal(hits[i], f.n);
+      }
+  }
+  if (alone_) return;
+  for (std::size_t first = 0; first < rays.size(); first += World::kBatch) {
+    const std::size_t n = std::min<std::size_t>(World::kBatch, rays.size() - first);
+    std::array<const Ray*, World::kBatch> some{};
+    std::array<Hit, World::kBatch> others;
+    for (std::size_t i = 0; i < n; ++i) {
+      Ray& ray = copies[first + i];
+      ray.tMax = std::min(ray.tMax, hits[first + i].t);
+      some[i] = &ray;
+    }
+    world_.intersect({some.data(), n}, {others.data(), n});
+    for (std::size_t i = 0; i < n; ++i)
+      if (const Hit hit = passImplicit(*some[i], others[i]); hit.found()) hits[first + i] = hit;
+  }
+}
+
+SurfaceInteraction Cover::surface(const RayDifferential& ray, const Hit& hit) const {
+  if (!isImplicit(hit)) return world_.surface(ray, hit);
+  const Base& base = bases_[hit.primitive];
+  const Skin& skin = skins_[base.skin];
+  SurfaceInteraction s = skin.anywhere;
+  s.p = ray.at(hit.t);
+  s.n = s.ns = skin.reversed ? -normalOf(hit) : normalOf(hit);
+  s.wo = -glm::normalize(ray.d);
+  s.error =
+      8 * std::numeric_limits<float>::epsilon() * (glm::length(ray.o) + hit.t * glm::length(ray.d));
+  s.time = ray.time;
+  s.objectP = skin.toField.point(DPoint3(s.p));
+  s.primitive = base.primitive;
+  // From the point below the surfel the parameters go on linearly along its tangent plane:
+  // p = dpdu du + dpdv dv by least squares.
+  const Vec3 d = s.p - base.p;
+  const float uu = lengthSquared(base.dpdu), uv = glm::dot(base.dpdu, base.dpdv),
+              vv = lengthSquared(base.dpdv), a = glm::dot(base.dpdu, d), b = glm::dot(base.dpdv, d),
+              determinant = uu * vv - uv * uv;
+  s.uv = base.uv;
+  if (determinant > 0) s.uv += Point2(vv * a - uv * b, uu * b - uv * a) / determinant;
+  const auto tangent = [&](const Vec3& v) { return v - glm::dot(v, s.n) * s.n; };
+  s.dpdu = s.tangent = tangent(base.dpdu);
+  s.dpdv = tangent(base.dpdv);
+  s.dndu = base.dndu;
+  s.dndv = base.dndv;
+  if (ray.hasDifferentials) setFootprint(s, ray);
+  return s;
+}
+
+// Steps of f / |gradient| along the normal, a little too long, until the field is below zero.
+float Cover::depth(const Hit& hit, const SurfaceInteraction& at) const {
+  if (!isImplicit(hit)) return 0;
+  const Skin& skin = skins_[bases_[hit.primitive].skin];
+  const DVec3 up = skin.toField.vector(DVec3(skin.reversed ? -at.n : at.n));
+  double depth = 0;
+  for (int i = 0; i < 8; ++i) {
+    const FieldPoint f = skin.surface.field->at(at.objectP + depth * up);
+    const double step = 1.1 * f.value / glm::length(skin.surface.toRender.normal(f.gradient));
+    if (!(step > 0 && std::isfinite(step))) break;
+    depth += step;
+  }
+  return static_cast<float>(depth);
+}
+
+}  // namespace pbrt::surfels

@@ -1,0 +1,24 @@
+#pragma once
+// What surfels look like: a coloured, shiny skin under a key light and a sky. Linear light.
+
+#include <optional>
+#include <span>
+
+#include "shapes/metaballs/surfels/draw.h"
+#include "view.h"
+
+namespace pbrt {
+
+struct Look {
+  Vec3 color{0.03F, 0.25F, 0.45F};  // of the skin, where light leaves it
+  Vec3 sky{0.75F, 0.85F, 1};        // straight up: what lights the skin, and is seen behind it
+  Vec3 ground{0.16F, 0.16F, 0.17F};
+  std::optional<Vec3> background;  // one colour that is seen behind the skin, in place of the sky
+};
+
+// What the pixels of a row see from `x` on, y below: sets as many values of each of out[0..2], the
+// red, green and blue of the first pixel.
+void shade(const Look& look, const PinholeCamera& camera, int x, int y,
+           std::span<const surfels::Fragment> seen, float* const out[3]);
+
+}  // namespace pbrt
