@@ -49,8 +49,8 @@ inline View::View(const Bounds3& box, int size) : size_(size) {
   const Vec3 right = glm::normalize(glm::cross(forward, Vec3(0, 1, 0)));
   const Vec3 up = glm::cross(right, forward);
   const Point3 eye = box.centre() - 3 * radius * forward;
-  // The cone about a ball of 0.8 of its radius: fluids do not fill the box's corners.
-  const float halfWidth = 0.8F / std::sqrt(9 - sqr(0.8F));
+  // The cone about a ball of 0.95 of its radius: fluids do not fill the corners.
+  const float halfWidth = 0.95F / std::sqrt(9 - sqr(0.95F));
   rays_.resize(sqr(static_cast<std::size_t>(size / kBlock)));
   for (std::size_t block = 0; block < rays_.size(); ++block)
     for (int i = 0; i < sqr(kBlock); ++i) {
