@@ -102,8 +102,9 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
     const double perLength = 1 / frame.side;
     for (; !members.empty(); members = members.subspan(run.count)) {
       run.count = std::min(members.size(), PointRun::kMost);
-      for (std::size_t i = 0; i < run.count; ++i) {
-        const Point3 p = frame.inward(points[members[i]]);
+      for (std::size_t i = 0; i < (run.count + kLanes - 1) / kLanes * kLanes;
+           ++i) {  // lanes to spare: the last
+        const Point3 p = frame.inward(points[members[std::min(i, run.count - 1)]]);
         run.p[0][i] = p.x, run.p[1][i] = p.y, run.p[2][i] = p.z;
       }
       loops.add(kernel_, atoms, velocities_, scale, run);

@@ -39,7 +39,9 @@ static std::size_t gather(std::span<const Atom> atoms, AtomList list, const Cell
     };
     const Doubles inverse = a.inverse * cell.side;
     const Floats fx = unit(a.x), fy = unit(a.y), fz = unit(a.z);
-    const Floats inverse2 = __builtin_convertvector(inverse * inverse, Floats);
+    // Finite also where an atom is as nothing beside its cell.
+    const Floats inverse2 =
+        __builtin_convertvector(metaballs::min(inverse * inverse, Doubles{} + 1e30), Floats);
     const Floats weight = __builtin_convertvector(a.weight, Floats);
     for (; mask != 0; mask &= mask - 1, ++n) {
       const int k = __builtin_ctz(mask);
@@ -51,6 +53,35 @@ static std::size_t gather(std::span<const Atom> atoms, AtomList list, const Cell
   }
   run.count = n;
   return std::min(i, list.size());
+}
+
+// The lowest and the highest lane, moved apart by more than the rounding of coordinates.
+struct Extent {
+  float lo, hi;
+
+  explicit Extent(const Floats& v) : lo(v[0]), hi(v[0]) {
+    for (int k = 1; k < kLanes; ++k) lo = std::min(lo, v[k]), hi = std::max(hi, v[k]);
+    lo -= 1e-6F, hi += 1e-6F;
+  }
+  Floats beyond(const Floats& v) const {
+    return metaballs::positivePart(metaballs::max(lo - v, v - hi));
+  }
+};
+
+// Those atoms of the run that may reach some of eight points. How many.
+static std::size_t reaching(const AtomRun& run, const Floats& px, const Floats& py,
+                            const Floats& pz, std::uint16_t* indices) {
+  const Extent ex(px), ey(py), ez(pz);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < run.count; i += kLanes) {
+    const auto load = [&](const float* a) { return *reinterpret_cast<const Floats*>(a + i); };
+    const Floats x = ex.beyond(load(run.x)), y = ey.beyond(load(run.y)), z = ez.beyond(load(run.z));
+    unsigned mask = bits((x * x + y * y + z * z) * load(run.inverse2) < 1);
+    if (run.count - i < kLanes) mask &= (1U << (run.count - i)) - 1;
+    for (; mask != 0; mask &= mask - 1)
+      indices[count++] = static_cast<std::uint16_t>(i + static_cast<unsigned>(__builtin_ctz(mask)));
+  }
+  return count;
 }
 
 // W = w K(q) with q = |d|^2 / h^2 and d = p - a: grad W = 2 w K'(q) / h^2 d. The atom's centre a
@@ -66,10 +97,12 @@ void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, Poin
     };
     const Floats px = load(points.p[0]), py = load(points.p[1]), pz = load(points.p[2]);
     Floats value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, change{}, fx{}, fy{}, fz{};
-    for (std::size_t i = 0; i < run.count; ++i) {
+    std::uint16_t indices[AtomRun::kMost];
+    const std::size_t count = reaching(run, px, py, pz, indices);
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t i = indices[n];
       const Floats x = px - run.x[i], y = py - run.y[i], z = pz - run.z[i];
       const Floats r2 = x * x + y * y + z * z, q = r2 * run.inverse2[i];
-      if (bits(q < 1) == 0) continue;
       const Floats own = run.weight[i] * K::value(q);
       const Floats k = (2 * run.weight[i] * run.inverse2[i]) * K::slope(q);
       value += own;

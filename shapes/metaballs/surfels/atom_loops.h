@@ -21,13 +21,13 @@ struct CellFrame {
 };
 
 // Some atoms, which touch a cell, in its frame.
-struct AtomRun {
+struct alignas(metaballs::kLaneAlignment) AtomRun {
   static constexpr std::size_t kMost = 256;
-  std::size_t count = 0;
   float x[kMost], y[kMost], z[kMost];
   float inverse2[kMost];  // 1 / h^2
   float weight[kMost];
   std::uint32_t number[kMost];
+  std::size_t count = 0;  // beyond it, numbers may be anything
 };
 
 // What the atoms of a run add to the field at some points of a cell, in its frame. The sums of a

@@ -95,7 +95,7 @@ TEST_P(AtomFieldOf, IsTheSumOfItsAtoms) {
   AtomField field;
   field.set(kernel, atoms.atoms(), velocities);
   const std::vector<DPoint3> points =
-      pointsAbout(atoms, field, std::min<std::size_t>(300, 1000000 / atoms.atoms().size()));
+      pointsAbout(atoms, field, std::min<std::size_t>(100, 300000 / atoms.atoms().size()));
   std::vector<FieldAt> at(points.size());
   field.at(points, at);
   for (std::size_t i = 0; i < points.size(); ++i) {
