@@ -75,12 +75,12 @@ TEST(Spread, IsEvenAtRestAndWithoutHoles) {
   }
 }
 
-TEST(Spread, FromOneSideIsCoverOfAllInFewSteps) {
+TEST(Spread, FromOneSideAllIsCoveredInFewSteps) {
   Simulation simulation({.count = 6000});
   simulation.step(Balls({{{0.9, 0, 0}, 0.1}}), 0);
   const Balls ball({{{0, 0, 0}, 1}});
   simulation.step(ball, 0);
-  EXPECT_LE(stepsToCover(simulation, ball), 12);
+  EXPECT_LE(stepsToCover(simulation, ball), 8);
   for (int i = 0; i < 60; ++i) simulation.step(ball, 0);
   EXPECT_LT(simulation.report().evenness, 0.15);
 }
@@ -90,10 +90,13 @@ TEST(Spread, APieceThatSplitsOffIsCoveredInFewSteps) {
   for (int i = 0; i < 30; ++i) simulation.step(Balls({{{0, 0, 0}, 1}}), 0.01);
   // One that holds no surfel, far away.
   const Balls both({{{0, 0, 0}, 1}, {{1e4, 0, 0}, 0.5}});
-  EXPECT_LE(stepsToCover(simulation, both), 8);
+  EXPECT_LE(stepsToCover(simulation, both), 6);
   for (int i = 0; i < 40; ++i) simulation.step(both, 0.01);
   EXPECT_LT(simulation.report().evenness, 0.15);
-  EXPECT_NEAR(shareOfFirst(simulation, both), 0.8, 0.05);
+  // Its share by area is a fifth. Dispersion ends where sigma differs by a half: with means of 1.9
+  // and 1.4, as sigma - 1 goes by about the density's power of 3/2, at 0.58 of the density.
+  EXPECT_GT(1 - shareOfFirst(simulation, both), 0.58 * 0.2);
+  EXPECT_LT(1 - shareOfFirst(simulation, both), 0.22);
 }
 
 TEST(Spread, FarPiecesHaveSharesByArea) {
