@@ -49,7 +49,8 @@ inline View::View(const Bounds3& box, int size) : size_(size) {
   const Vec3 right = glm::normalize(glm::cross(forward, Vec3(0, 1, 0)));
   const Vec3 up = glm::cross(right, forward);
   const Point3 eye = box.centre() - 3 * radius * forward;
-  const float halfWidth = 1 / std::sqrt(8.F);  // the cone about a ball three of its radii away
+  // The cone about a ball of 0.95 of its radius: fluids do not fill the corners.
+  const float halfWidth = 0.95F / std::sqrt(9 - sqr(0.95F));
   rays_.resize(sqr(static_cast<std::size_t>(size / kBlock)));
   for (std::size_t block = 0; block < rays_.size(); ++block)
     for (int i = 0; i < sqr(kBlock); ++i) {
@@ -175,8 +176,11 @@ class Points final : public Way {
     return anew_ == 0 ? count : fmt::format("{}, anew, {} step(s)", count, anew_);
   }
   void set(const Fluid& fluid, double dt) override {
+    if (anew_ > 0) {
+      field_ = surfels::AtomField();
+      simulation_.emplace(settings_);
+    }
     field_.set(fluid.kernel, fluid.atoms, fluid.velocities);
-    if (anew_ > 0) simulation_.emplace(settings_);
     const int steps = anew_ > 0 ? anew_ : simulation_->surfels().empty() ? kSettling : 1;
     for (int i = 0; i < steps; ++i) simulation_->step(field_, steps == 1 ? dt : 0);
     discs_.set(simulation_->surfels(), DPoint3(0));
