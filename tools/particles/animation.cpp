@@ -12,9 +12,14 @@ constexpr int kBlock = 32;  // pixels a side
 
 }  // namespace
 
-Animation::Animation(motion::Motion& motion, const PinholeCamera& camera, Point2i size,
-                     const surfels::Simulation::Settings& settings, int settle)
-    : motion_(motion), camera_(camera), size_(size), settle_(settle), simulation_(settings) {
+Animation::Animation(motion::Motion& motion, const PinholeCamera& camera, const Look& look,
+                     Point2i size, const surfels::Simulation::Settings& settings, int settle)
+    : motion_(motion),
+      camera_(camera),
+      shader_(look, camera),
+      size_(size),
+      settle_(settle),
+      simulation_(settings) {
   std::vector<Ray> rays;
   std::size_t first = 0;
   for (int y = 0; y < size.y; y += kBlock)
@@ -29,7 +34,7 @@ Animation::Animation(motion::Motion& motion, const PinholeCamera& camera, Point2
   seen_.resize(first);
 }
 
-void Animation::shade(const Look& look, bool allChannels, Image& image) const {
+void Animation::shade(bool allChannels, Image& image) const {
   image.window = {Point2i(0), size_};
   image.resolution = size_;
   image.names = {"R", "G", "B"};
@@ -44,7 +49,7 @@ void Animation::shade(const Look& look, bool allChannels, Image& image) const {
       const int x = block.pixels.lo.x;
       const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) + x;
       float* const rgb[] = {&image.channels[0][at], &image.channels[1][at], &image.channels[2][at]};
-      pbrt::shade(look, camera_, x, y, seen.first(width), rgb);
+      shader_.shade(x, y, seen.first(width), rgb);
       if (!allChannels) continue;
       for (std::size_t i = 0; i < width; ++i) {
         const surfels::Fragment& f = seen[i];
@@ -56,7 +61,7 @@ void Animation::shade(const Look& look, bool allChannels, Image& image) const {
   });
 }
 
-FrameFigures Animation::make(int number, const Look& look, bool allChannels, Image* image) {
+FrameFigures Animation::make(int number, bool allChannels, Image* image) {
   FrameFigures figures;
   figures.frame = number;
   const auto timed = [](double& milliseconds, auto stage) {
@@ -79,7 +84,7 @@ FrameFigures Animation::make(int number, const Look& look, bool allChannels, Ima
         discs_.draw(block.beam, {&seen_[block.first], block.rays()});
       });
     });
-    timed(figures.shade, [&] { shade(look, allChannels, *image); });
+    timed(figures.shade, [&] { shade(allChannels, *image); });
   }
   figures.cpu = 1e3 * clock.cpuSeconds();
 

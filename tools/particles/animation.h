@@ -3,9 +3,9 @@
 
 #include "core/base/image.h"
 #include "look.h"
-#include "motion/motion.h"
 #include "shapes/metaballs/surfels/atom_field.h"
 #include "shapes/metaballs/surfels/draw.h"
+#include "tools/particles/motion/motion.h"
 
 namespace pbrt {
 
@@ -27,13 +27,13 @@ struct FrameFigures {
 class Animation {
  public:
   // `motion` must outlive it. `settle`: steps at the first frame, for the surfels to spread.
-  Animation(motion::Motion& motion, const PinholeCamera& camera, Point2i size,
+  Animation(motion::Motion& motion, const PinholeCamera& camera, const Look& look, Point2i size,
             const surfels::Simulation::Settings& settings, int settle);
 
   // Goes on to a frame, and draws it if `image` is not null: sets R, G and B, and if `allChannels`
   // A (1 where there is a surface), Z (its distance), and N.X, .Y, .Z (its normal).
   // Numbers should rise by one. Throws what Motion::frame() throws.
-  FrameFigures make(int number, const Look& look, bool allChannels, Image* image);
+  FrameFigures make(int number, bool allChannels, Image* image);
 
   std::span<const surfels::Surfel> surfels() const { return simulation_.surfels(); }
 
@@ -49,10 +49,11 @@ class Animation {
     }
   };
 
-  void shade(const Look& look, bool allChannels, Image& image) const;
+  void shade(bool allChannels, Image& image) const;
 
   motion::Motion& motion_;
   PinholeCamera camera_;
+  Shader shader_;
   Point2i size_;
   int settle_;
   motion::Fluid fluid_;

@@ -16,9 +16,20 @@ struct Look {
   std::optional<Vec3> background;  // one colour that is seen behind the skin, in place of the sky
 };
 
-// What the pixels of a row see from `x` on, y below: sets as many values of each of out[0..2], the
-// red, green and blue of the first pixel.
-void shade(const Look& look, const PinholeCamera& camera, int x, int y,
-           std::span<const surfels::Fragment> seen, float* const out[3]);
+class Shader {
+ public:
+  Shader(const Look& look, const PinholeCamera& camera);
+
+  // What the pixels of a row see from `x` on, y below: sets as many values of each of out[0..2],
+  // the red, green and blue of the first pixel.
+  void shade(int x, int y, std::span<const surfels::Fragment> seen, float* const out[3]) const;
+
+ private:
+  PinholeCamera camera_;
+  Vec3 toKey_;
+  // What comes from a direction: the horizon's light, and more of the sky's as it rises. The same
+  // of what is behind the skin.
+  Vec3 color_, horizon_, rise_, horizonBehind_, riseBehind_;
+};
 
 }  // namespace pbrt

@@ -6,8 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/base/file.h"
-#include "motion/sequence.h"
 #include "tools/command.h"
+#include "tools/particles/motion/sequence.h"
 
 namespace pbrt {
 

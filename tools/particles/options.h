@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "look.h"
-#include "motion/motion.h"
+#include "tools/particles/motion/motion.h"
 
 namespace pbrt {
 

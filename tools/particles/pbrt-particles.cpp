@@ -72,7 +72,6 @@ void printSum(const std::deque<FrameFigures>& frames, double seconds) {
 int run(const ParticleOptions& o) {
   const ThreadLimit limit(o.threads);
   const Point2i size = readSize(o.size);
-  const Look look = lookOf(o);
   const std::unique_ptr<motion::Motion> motion = openMotion(o);
   const FrameRange range = readFrames(o.frames, *motion);
   const PinholeCamera camera(viewOf(o, *motion, size), size);
@@ -81,7 +80,8 @@ int run(const ParticleOptions& o) {
   if (!o.stats.empty()) checkReplaceable(o.stats);
 
   stopAtSignals();
-  Animation animation(*motion, camera, size, {.count = readCount(o), .seed = o.seed}, o.settle);
+  Animation animation(*motion, camera, lookOf(o), size, {.count = readCount(o), .seed = o.seed},
+                      o.settle);
   std::deque<FrameFigures> frames;
   Writer writer;
   const Clock clock;
@@ -90,7 +90,7 @@ int run(const ParticleOptions& o) {
   Image image;
   for (int number = range.first; number <= range.last && !interrupted; ++number) {
     FrameFigures& figures = frames.emplace_back(
-        animation.make(number, look, files && files->ofChannels(), ofSurfels ? nullptr : &image));
+        animation.make(number, files && files->ofChannels(), ofSurfels ? nullptr : &image));
     if (!o.quiet) print(figures);
     if (!files) continue;
     const auto put = [&](auto write) {

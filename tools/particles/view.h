@@ -30,6 +30,8 @@ class PinholeCamera {
   const Vec3& right() const { return right_; }
   const Vec3& up() const { return up_; }
   const Vec3& forward() const { return forward_; }
+  // From a direction() to that of the next pixel in the row.
+  const Vec3& stepRight() const { return stepRight_; }
   // From the eye towards a pixel, as far as the plane at distance 1.
   Vec3 direction(int x, int y) const {
     return forward_ + (static_cast<float>(x) - middle_.x) * stepRight_ +

@@ -18,7 +18,7 @@ struct Row {
   Row(const Look& look, int x, int y, std::span<const Fragment> seen) {
     for (auto& v : values) v.resize(seen.size());
     float* const to[] = {values[0].data(), values[1].data(), values[2].data()};
-    shade(look, kCamera, x, y, seen, to);
+    Shader(look, kCamera).shade(x, y, seen, to);
   }
   Vec3 at(std::size_t i) const { return {values[0][i], values[1][i], values[2][i]}; }
 };
