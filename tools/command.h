@@ -33,6 +33,10 @@ int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug
     fmt::print(stderr, "error: out of memory\n");
     return static_cast<int>(Failure::scene);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) {
+      fmt::print(stderr, "error: cannot write to standard output\n");
+      return static_cast<int>(Failure::io);
+    }
     fmt::print(stderr, "error: {} (this is a bug in {})\n", error.what(), app.get_name());
     return bug;
   }

@@ -70,16 +70,15 @@ FrameFigures Animation::make(int number, bool allChannels, Image* image) {
     milliseconds = 1e3 * clock.seconds();
   };
   timed(figures.motion, [&] { motion_.frame(number, fluid_); });
-  const bool begins = simulation_.surfels().empty();
+  const bool begins = surfels().empty();
+  // Each time anew: a field shows the places that it found when it was set.
+  for (int i = 0; begins && i < settle_; ++i) {
+    field_.set(fluid_.kernel, fluid_.atoms, fluid_.velocities);
+    simulation_.step(field_, 0);
+  }
   const Clock clock;
   timed(figures.field, [&] { field_.set(fluid_.kernel, fluid_.atoms, fluid_.velocities); });
   timed(figures.step, [&] { simulation_.step(field_, begins ? 0 : motion_.dt()); });
-  if (begins)
-    // Each time anew: a field shows the places that it found when it was set.
-    for (int i = 0; i < settle_; ++i) {
-      field_.set(fluid_.kernel, fluid_.atoms, fluid_.velocities);
-      simulation_.step(field_, 0);
-    }
   if (image) {
     timed(figures.discs, [&] { discs_.set(surfels(), camera_.eye()); });
     timed(figures.draw, [&] {
@@ -95,9 +94,10 @@ FrameFigures Animation::make(int number, bool allChannels, Image* image) {
   figures.atoms = fluid_.atoms.size();
   figures.surfels = surfels().size();
   figures.report = simulation_.report();
-  constexpr std::size_t kPlaces = 256;  // of the surface, others in each frame
+  // Places of the surface, others in each frame, and others than the simulation looks at.
+  constexpr std::uint64_t kPlaces = 256, kFirst = std::uint64_t{1} << 40U;
   const std::vector<surfels::Place> places =
-      surfels::places(field_, kPlaces * static_cast<std::uint64_t>(number), kPlaces);
+      surfels::places(field_, kFirst + kPlaces * static_cast<std::uint64_t>(number), kPlaces);
   if (!places.empty())
     figures.coverage = surfels::coverage(surfels(), places, figures.report.reach).covered;
   return figures;

@@ -11,7 +11,7 @@ namespace pbrt {
 
 struct Look {
   Vec3 color{0.03F, 0.25F, 0.45F};  // of the skin, where light leaves it
-  Vec3 sky{0.75F, 0.85F, 1};        // straight up: what lights the skin, and is seen behind it
+  Vec3 sky{0.75F, 0.85F, 1};  // from the top of the picture: lights the skin, and is seen behind it
   Vec3 ground{0.16F, 0.16F, 0.17F};
   std::optional<Vec3> background;  // one colour that is seen behind the skin, in place of the sky
 };

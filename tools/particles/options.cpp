@@ -15,7 +15,7 @@ namespace {
 
 CLI::Validator finiteNumber() {
   return {[](std::string& text) {
-            double value = 0;
+            float value = 0;
             const bool fine = CLI::detail::lexical_cast(text, value) && std::isfinite(value);
             return fine ? "" : "must be a finite number, not " + text;
           },
@@ -105,8 +105,11 @@ void defineOptions(CLI::App& app, ParticleOptions& o) {
       ->check(CLI::Range(0.001, 179.0))
       ->group(view);
   addTriple(app, "--color", o.color, "Of the surface, as red,green,blue of linear light")
+      ->check(CLI::Range(0.0, 1e6))
       ->group(view);
-  addTriple(app, "--background", o.background, "One colour in place of the sky")->group(view);
+  addTriple(app, "--background", o.background, "One colour in place of the sky")
+      ->check(CLI::Range(0.0, 1e6))
+      ->group(view);
 
   app.add_option("--nthreads,--threads", o.threads, "Number of threads (default: all cores)")
       ->check(CLI::Range(1, 4096));
@@ -123,8 +126,8 @@ void defineOptions(CLI::App& app, ParticleOptions& o) {
 FrameRange readFrames(const std::string& text, const motion::Motion& motion) {
   constexpr int kUsual = 120;
   const int first = motion.first(), last = motion.last();
-  if (text.empty())
-    return {first, last == std::numeric_limits<int>::max() ? first + kUsual - 1 : last};
+  const bool endless = last == motion::kMostFrames - 1;
+  if (text.empty()) return {first, endless ? first + kUsual - 1 : last};
   const std::optional<Point2i> pair =
       pairOf(text.find('-') < text.size() ? text : text + '-' + text, '-');
   if (!pair)
@@ -133,17 +136,17 @@ FrameRange readFrames(const std::string& text, const motion::Motion& motion) {
   if (pair->x > pair->y)
     throw Error(fmt::format("--frames {}: the last is before the first", text), Failure::usage);
   if (pair->x < first || pair->y > last)
-    throw Error(last == std::numeric_limits<int>::max()
-                    ? fmt::format("--frames {}: the first frame is {}", text, first)
-                    : fmt::format("--frames {}: there are frames {} to {}", text, first, last),
+    throw Error(endless ? fmt::format("--frames {}: the first frame is {}", text, first)
+                        : fmt::format("--frames {}: there are frames {} to {}", text, first, last),
                 Failure::usage);
+  motion.require(pair->x, pair->y);
   return {pair->x, pair->y};
 }
 
 Point2i readSize(const std::string& text) {
   constexpr int kMost = 16384;
   constexpr std::size_t kBytesOfPixel =
-      128;  // its ray, what it sees, and its values, waiting ones too
+      192;  // its ray, what it sees, and its values, waiting ones too
   const std::optional<Point2i> pair = pairOf(text, 'x');
   if (!pair || pair->x < 1 || pair->y < 1 || pair->x > kMost || pair->y > kMost)
     throw Error(
@@ -157,7 +160,7 @@ Point2i readSize(const std::string& text) {
 
 std::size_t readCount(const ParticleOptions& o) {
   constexpr std::size_t kBytesOfSurfel =
-      512;  // with what the simulation and the drawing keep of it
+      1024;  // with what the simulation, the drawing and the writer keep of it
   if (o.particles > halfOfMemory() / kBytesOfSurfel)
     throw Error(
         fmt::format("--particles {} is more than the memory of this machine can take", o.particles),

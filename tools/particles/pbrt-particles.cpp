@@ -4,6 +4,7 @@
 
 #include <csignal>
 #include <deque>
+#include <set>
 
 #include "animation.h"
 #include "core/base/parallel.h"
@@ -19,10 +20,14 @@ namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 
-// Ctrl-C ends the run between two frames: what is being written is finished.
+// Ctrl-C ends the run between two frames: what is being written is finished. The second time it
+// ends the process at once.
 void stopAtSignals() {
   for (const int signal : {SIGINT, SIGTERM})
-    std::signal(signal, [](int number) { interrupted = number; });
+    std::signal(signal, [](int number) {
+      interrupted = number;
+      std::signal(number, SIG_DFL);
+    });
 }
 
 // The figures as columns of a file.
@@ -69,6 +74,23 @@ void printSum(const std::deque<FrameFigures>& frames, double seconds) {
       sum.motion / n, sum.write / n);
 }
 
+// Nothing is written over what is read, or twice to one place.
+void checkApart(const motion::Motion& motion, FrameRange range,
+                const std::optional<FrameFiles>& files, const std::string& stats) {
+  namespace fs = std::filesystem;
+  std::set<fs::path> taken;
+  if (!motion.file(range.first).empty())
+    for (int n = motion.first(); n <= motion.last(); ++n)
+      taken.insert(fs::weakly_canonical(motion.file(n)));
+  const auto take = [&](const fs::path& file) {
+    if (!taken.insert(fs::weakly_canonical(file)).second)
+      throw Error(fmt::format("{} would be written over: choose another name", file.string()),
+                  Failure::usage);
+  };
+  if (!stats.empty()) take(stats);
+  for (int n = range.first; files && n <= range.last; ++n) take(files->file(n));
+}
+
 int run(const ParticleOptions& o) {
   const ThreadLimit limit(o.threads);
   const Point2i size = readSize(o.size);
@@ -78,6 +100,7 @@ int run(const ParticleOptions& o) {
   std::optional<FrameFiles> files;
   if (!o.out.empty()) files.emplace(o.out, range.first, range.last);
   if (!o.stats.empty()) checkReplaceable(o.stats);
+  checkApart(*motion, range, files, o.stats);
 
   stopAtSignals();
   Animation animation(*motion, camera, lookOf(o), size, {.count = readCount(o), .seed = o.seed},
@@ -88,11 +111,11 @@ int run(const ParticleOptions& o) {
   if (!o.quiet) printHead();
   const bool ofSurfels = files && files->ofSurfels();
   Image image;
-  for (int number = range.first; number <= range.last && !interrupted; ++number) {
+  const auto next = [&](int number) {
     FrameFigures& figures = frames.emplace_back(
         animation.make(number, files && files->ofChannels(), ofSurfels ? nullptr : &image));
     if (!o.quiet) print(figures);
-    if (!files) continue;
+    if (!files) return;
     const auto put = [&](auto write) {
       writer.put([write = std::move(write), file = files->file(number), &ms = figures.write] {
         const Clock writing;
@@ -105,9 +128,19 @@ int run(const ParticleOptions& o) {
               const auto& file) { writePly(file, surfels); });
     else
       put([picture = std::move(image)](const auto& file) { writeImage(file, picture); });
+  };
+  // What was measured before an error is kept.
+  const auto save = [&] {
+    if (!o.stats.empty()) writeFile(o.stats, toCsv(frames));
+  };
+  try {
+    for (int number = range.first; number <= range.last && !interrupted; ++number) next(number);
+    writer.finish();
+  } catch (...) {
+    save();
+    throw;
   }
-  writer.finish();
-  if (!o.stats.empty()) writeFile(o.stats, toCsv(frames));
+  save();
   if (!o.quiet && !frames.empty()) printSum(frames, clock.seconds());
   return interrupted ? 128 + interrupted : 0;
 }

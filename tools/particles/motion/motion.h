@@ -1,7 +1,7 @@
 #pragma once
 // Fluids that move, frame by frame: what surfels follow.
 
-#include <limits>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,12 +18,19 @@ struct Fluid {
   std::vector<Vec3> velocities;  // one for each atom, per second
 };
 
+// The number of a frame is below this.
+inline constexpr int kMostFrames = 1'000'000'000;
+
 class Motion {
  public:
   virtual ~Motion() = default;
   // The frames that there are.
   virtual int first() const { return 1; }
-  virtual int last() const { return std::numeric_limits<int>::max(); }
+  virtual int last() const { return kMostFrames - 1; }
+  // Throws Error, Failure::io, if one of these frames is not there.
+  virtual void require(int /*first*/, int /*last*/) const {}
+  // The file that a frame comes from; empty: none.
+  virtual std::filesystem::path file(int /*number*/) const { return {}; }
   // Seconds from one frame to the next.
   virtual double dt() const = 0;
   // Holds nearly all of the fluid, at all times: what a camera should see.

@@ -50,7 +50,8 @@ struct Pattern {
     const char* end = name.data() + name.size() - after.size();
     int number = -1;
     const auto read = std::from_chars(name.data() + before.size(), end, number);
-    const bool whole = read.ec == std::errc() && read.ptr == end && number >= 0;
+    const bool whole =
+        read.ec == std::errc() && read.ptr == end && number >= 0 && number < kMostFrames;
     return whole && file(number).filename() == name ? std::optional(number) : std::nullopt;
   }
 };
@@ -77,6 +78,8 @@ class Sequence final : public Motion {
 
   int first() const override { return numbers_.front(); }
   int last() const override { return numbers_.back(); }
+  void require(int first, int last) const override;
+  fs::path file(int number) const override { return pattern_.file(number); }
   double dt() const override { return 1 / settings_.fps; }
   Bounds3 bounds() const override { return bounds_; }
   void frame(int number, Fluid& out) override;
@@ -177,17 +180,22 @@ std::vector<Vec3> Sequence::velocities(int number) {
   return sums;
 }
 
-void Sequence::frame(int number, Fluid& out) {
-  const auto place = std::ranges::lower_bound(numbers_, number);
-  if (place == numbers_.end() || *place != number) {
+void Sequence::require(int first, int last) const {
+  auto place = std::ranges::lower_bound(numbers_, first);
+  for (int number = first; number <= last; ++number, ++place) {
+    if (place != numbers_.end() && *place == number) continue;
     std::vector<std::string> nearest;
-    if (place != numbers_.begin()) nearest.push_back(pattern_.file(*(place - 1)).string());
-    if (place != numbers_.end()) nearest.push_back(pattern_.file(*place).string());
-    throw Error(
-        fmt::format("{} is missing; nearest to it there {} {}", pattern_.file(number).string(),
-                    nearest.size() > 1 ? "are" : "is", fmt::join(nearest, " and ")),
-        Failure::io);
+    if (place != numbers_.begin()) nearest.push_back(file(*(place - 1)).string());
+    if (place != numbers_.end()) nearest.push_back(file(*place).string());
+    throw Error(fmt::format("{} is missing; nearest to it there {} {}", file(number).string(),
+                            nearest.size() > 1 ? "are" : "is", fmt::join(nearest, " and ")),
+                Failure::io);
   }
+}
+
+void Sequence::frame(int number, Fluid& out) {
+  require(number, number);
+  const auto place = std::ranges::lower_bound(numbers_, number);
   const std::vector<Vec3> velocities = this->velocities(number);
   const Particles& now = particles(number);
   const auto fail = [&](const char*, const std::string& message) {
