@@ -75,7 +75,11 @@ FrameFigures Animation::make(int number, bool allChannels, Image* image) {
   timed(figures.field, [&] { field_.set(fluid_.kernel, fluid_.atoms, fluid_.velocities); });
   timed(figures.step, [&] { simulation_.step(field_, begins ? 0 : motion_.dt()); });
   if (begins)
-    for (int i = 0; i < settle_; ++i) simulation_.step(field_, 0);
+    // Each time anew: a field shows the places that it found when it was set.
+    for (int i = 0; i < settle_; ++i) {
+      field_.set(fluid_.kernel, fluid_.atoms, fluid_.velocities);
+      simulation_.step(field_, 0);
+    }
   if (image) {
     timed(figures.discs, [&] { discs_.set(surfels(), camera_.eye()); });
     timed(figures.draw, [&] {
@@ -94,7 +98,8 @@ FrameFigures Animation::make(int number, bool allChannels, Image* image) {
   constexpr std::size_t kPlaces = 256;  // of the surface, others in each frame
   const std::vector<surfels::Place> places =
       surfels::places(field_, kPlaces * static_cast<std::uint64_t>(number), kPlaces);
-  figures.coverage = surfels::coverage(surfels(), places, figures.report.reach).covered;
+  if (!places.empty())
+    figures.coverage = surfels::coverage(surfels(), places, figures.report.reach).covered;
   return figures;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // Makes frames: a fluid moves, surfels follow its surface, and are drawn.
 
+#include <optional>
+
 #include "core/base/image.h"
 #include "look.h"
 #include "shapes/metaballs/surfels/atom_field.h"
@@ -16,8 +18,8 @@ struct FrameFigures {
   // Milliseconds on the clock of the stages: the fluid, its field, the surfels, the discs made
   // ready, drawn, shaded, and the file.
   double motion = 0, field = 0, step = 0, discs = 0, draw = 0, shade = 0, write = 0;
-  double cpu = 0;       // of all threads from `field` to `shade`
-  double coverage = 1;  // share of the surface that some disc covers
+  double cpu = 0;                  // of all threads from `field` to `shade`
+  std::optional<double> coverage;  // share of the surface that some disc covers; if there is one
   surfels::Simulation::Report report;
 
   // From the atoms to the picture: what frames a second are counted by.

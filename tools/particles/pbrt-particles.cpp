@@ -32,11 +32,11 @@ std::string toCsv(const std::deque<FrameFigures>& frames) {
       "coverage,evenness,residual,holes,looked,moved,reach\n";
   for (const FrameFigures& f : frames)
     text += fmt::format(
-        "{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.4f},{:.4f},{:.3g},{},"
-        "{},{},{:.6g}\n",
+        "{},{},{},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{:.4f},{:.3g},{},{},"
+        "{},{:.6g}\n",
         f.frame, f.atoms, f.surfels, f.motion, f.field, f.step, f.discs, f.draw, f.shade, f.write,
-        f.cpu, f.coverage, f.report.evenness, f.report.residual, f.report.holes, f.report.looked,
-        f.report.moved, f.report.reach);
+        f.cpu, f.coverage ? fmt::format("{:.4f}", *f.coverage) : "", f.report.evenness,
+        f.report.residual, f.report.holes, f.report.looked, f.report.moved, f.report.reach);
   return text;
 }
 
@@ -46,9 +46,9 @@ void printHead() {
 }
 
 void print(const FrameFigures& f) {
-  fmt::print("{:6} {:9.1f} {:7.2f} % {:9.3f} {:9.1e} {:6} {:6}\n", f.frame, 1e3 / f.made(),
-             100 * f.coverage, f.report.evenness, f.report.residual, f.report.holes,
-             f.report.moved);
+  fmt::print("{:6} {:9.1f} {:>9} {:9.3f} {:9.1e} {:6} {:6}\n", f.frame, 1e3 / f.made(),
+             f.coverage ? fmt::format("{:.2f} %", 100 * *f.coverage) : "-", f.report.evenness,
+             f.report.residual, f.report.holes, f.report.moved);
 }
 
 // What all frames took, apart from the first, where the surfels are made.
