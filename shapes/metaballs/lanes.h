@@ -2,7 +2,9 @@
 // Eight numbers at once, by the vector extension that g++ and clang share. Sums over the lanes have
 // one order, whatever the machine's registers: results are the same on every instruction set.
 
+#include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 // Code that uses lanes is compiled once for each instruction set (see loops.h), each time in a
 // namespace of this name, lest the linker take one copy for another.
@@ -54,6 +56,16 @@ V positivePart(V a) {
 template <class V>
 V square(V a) {
   return a * a;
+}
+
+// Of lanes.
+template <class V>
+V squareRoot(V a) {
+#ifdef __AVX__
+  if constexpr (std::is_same_v<V, Floats>) return __builtin_ia32_sqrtps256(a);
+#endif
+  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
+  return a;
 }
 
 // Bit i tells whether a comparison held in lane i.

@@ -101,12 +101,7 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
     PointRun run;
     const double perLength = 1 / frame.side;
     for (; !members.empty(); members = members.subspan(run.count)) {
-      run.count = std::min(members.size(), PointRun::kMost);
-      for (std::size_t i = 0; i < (run.count + kLanes - 1) / kLanes * kLanes;
-           ++i) {  // lanes to spare: the last
-        const Point3 p = frame.inward(points[members[std::min(i, run.count - 1)]]);
-        run.p[0][i] = p.x, run.p[1][i] = p.y, run.p[2][i] = p.z;
-      }
+      fill(run, frame, points, members);
       loops.add(kernel_, atoms, velocities_, scale, run);
       const double terms = 2 + rounding + static_cast<double>(atoms.count);
       for (std::size_t i = 0; i < run.count; ++i) {
@@ -116,7 +111,6 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
         const std::uint16_t j = members[i];
         out[j].value += run.value[i];
         out[j].gradient += perLength * vector(run.gradient);
-        out[j].change += perLength * fastest_ * run.change[i];
         out[j].flow += perLength * fastest_ * vector(run.flow);
         slopes[j] += perLength * run.slopes[i];
         error[j] += 0x1p-24 * ((9 + rounding / 4) * run.slopes[i] + terms * run.magnitude[i]);
@@ -142,7 +136,7 @@ void AtomField::some(std::span<const DPoint3> points, std::span<FieldAt> out) co
     const DVec3 flow = s.slopes > 0      ? s.flow / s.slopes
                        : s.magnitude > 0 ? s.weighed / s.magnitude
                                          : DVec3(0);
-    out[which[i]] = {s.value - 1, s.gradient, s.change, flow};
+    out[which[i]] = {s.value - 1, s.gradient, flow};
   }
 }
 
@@ -158,19 +152,66 @@ void AtomField::exactly(std::span<const DPoint3> points, std::span<const Vec3> v
 }
 
 void AtomField::shape(std::span<const DPoint3> points, std::span<ShapeAt> out) const {
-  std::ranges::fill(out, ShapeAt{});
   for (std::size_t first = 0; first < points.size(); first += kChunk) {
-    const auto some = points.subspan(first, std::min(kChunk, points.size() - first));
-    visitCells(some,
-               [&](const CellFrame&, std::span<const std::uint16_t> members, const AtomRun& run) {
-                 for (const std::uint16_t i : members) {
-                   const metaballs::FieldSample part = metaballs::loops().sample(
-                       kernel_, atoms_, some[i], AtomList(run.number, run.count));
-                   out[first + i].gradient += part.gradient;
-                   out[first + i].hessian += part.hessian;
-                 }
-               });
+    const std::size_t count = std::min(kChunk, points.size() - first);
+    bend(points.subspan(first, count), out.subspan(first, count));
   }
+}
+
+// In floats; in doubles where their rounding may reach 1e-4 of the gradient, or 1e-3 of the Hessian
+// and of the gradient over the largest support there.
+//
+// With the lengths and u of some(), d is off by less than 6 u. That moves the gradient by 6 u times
+// the Hessian of W, which is less than a term of the sum `magnitude`, and so is the gradient, as
+// |d|
+// <= 1. It moves the Hessian by 6 u times the third derivatives, over all kernels and with s = |d|
+// / h at most (12 K'' s + 8 |K'''| s^3) |w| / h^3 < 70 |w| / h^3. Sums of n terms other than zero
+// are rounded by n u, and each term by 10 u and by what K' and K'' are.
+void AtomField::bend(std::span<const DPoint3> points, std::span<ShapeAt> out) const {
+  const AtomLoops& loops = atomLoops();
+  const double rounding =
+      10 + metaballs::withKernel(kernel_, []<class K>(K) { return 2.0 * K::kRounding; });
+  std::array<double, kChunk> gradientError{}, hessianError{}, perLargest{};
+  std::ranges::fill(out, ShapeAt{});
+  visitCells(points, [&](const CellFrame& frame, std::span<const std::uint16_t> members,
+                         const AtomRun& atoms) {
+    BendRun run;
+    const double perLength = 1 / frame.side, perArea = perLength * perLength;
+    for (; !members.empty(); members = members.subspan(run.count)) {
+      fill(run, frame, points, members);
+      loops.bend(kernel_, atoms, run);
+      for (std::size_t i = 0; i < run.count; ++i) {
+        const std::uint16_t j = members[i];
+        const auto h = [&](int k) { return perArea * run.hessian[k][i]; };
+        out[j].gradient +=
+            perLength * DVec3(run.gradient[0][i], run.gradient[1][i], run.gradient[2][i]);
+        out[j].hessian += glm::dmat3(h(0), h(3), h(4), h(3), h(1), h(5), h(4), h(5), h(2));
+        if (perLargest[j] == 0 && run.size[i] > 0) perLargest[j] = perLength;
+        const double rounded = (rounding + run.terms[i]) * run.magnitude[i];
+        gradientError[j] += 0x1p-24 * perLength * (6.0 * run.magnitude[i] + rounded);
+        hessianError[j] += 0x1p-24 * perArea * (6.0 * 70 * run.size[i] + rounded);
+      }
+    }
+  });
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const glm::dmat3& h = out[i].hessian;
+    const double bend = lengthSquared(h[0]) + lengthSquared(h[1]) + lengthSquared(h[2]);
+    const double slope = glm::length(out[i].gradient);
+    const bool good = gradientError[i] <= 1e-4 * slope &&
+                      hessianError[i] <= 1e-3 * std::max(std::sqrt(bend), perLargest[i] * slope);
+    if (!good) out[i] = shapeExactly(points[i]);
+  }
+}
+
+ShapeAt AtomField::shapeExactly(const DPoint3& p) const {
+  ShapeAt shape;
+  visitCells({&p, 1}, [&](const CellFrame&, std::span<const std::uint16_t>, const AtomRun& run) {
+    const metaballs::FieldSample part =
+        metaballs::loops().sample(kernel_, atoms_, p, AtomList(run.number, run.count));
+    shape.gradient += part.gradient;
+    shape.hessian += part.hessian;
+  });
+  return shape;
 }
 
 }  // namespace pbrt::surfels

@@ -27,8 +27,20 @@ class AtomField final : public MovingField {
 
   // These take at most kChunk points.
   void some(std::span<const DPoint3> points, std::span<FieldAt> out) const;
+  void bend(std::span<const DPoint3> points, std::span<ShapeAt> out) const;
   void exactly(std::span<const DPoint3> points, std::span<const Vec3> velocities,
                std::span<ExactSums> sums) const;
+  ShapeAt shapeExactly(const DPoint3& p) const;
+  // Puts the members in the frame of their cell; lanes to spare get the last.
+  template <class Run>
+  static void fill(Run& run, const CellFrame& frame, std::span<const DPoint3> points,
+                   std::span<const std::uint16_t> members) {
+    run.count = std::min(members.size(), Run::kMost);
+    for (std::size_t i = 0; i < (run.count + kLanes - 1) / kLanes * kLanes; ++i) {
+      const Point3 p = frame.inward(points[members[std::min(i, run.count - 1)]]);
+      run.p[0][i] = p.x, run.p[1][i] = p.y, run.p[2][i] = p.z;
+    }
+  }
   // Calls visit(frame, members, run) with cells, which of the points are in it, and some of the
   // atoms that touch it, until all were in a run.
   template <class Visit>

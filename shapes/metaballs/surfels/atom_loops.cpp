@@ -8,16 +8,8 @@
 namespace pbrt::surfels {
 inline namespace PBRT_LANES {
 
-using metaballs::AtomLanes, metaballs::bits, metaballs::Doubles, metaballs::withKernel;
-
-static Floats squareRoot(Floats a) {
-#ifdef __AVX__
-  return reinterpret_cast<Floats>(__builtin_ia32_sqrtps256(a));
-#else
-  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
-#endif
-}
+using metaballs::AtomLanes, metaballs::bits, metaballs::Doubles, metaballs::squareRoot,
+    metaballs::withKernel;
 
 // A support touches a cell if the point of the cell that is nearest to its centre is within its
 // radius.
@@ -61,7 +53,7 @@ struct Extent {
 
   explicit Extent(const Floats& v) : lo(v[0]), hi(v[0]) {
     for (int k = 1; k < kLanes; ++k) lo = std::min(lo, v[k]), hi = std::max(hi, v[k]);
-    lo -= 1e-6F, hi += 1e-6F;
+    lo -= 1e-5F, hi += 1e-5F;
   }
   Floats beyond(const Floats& v) const {
     return metaballs::positivePart(metaballs::max(lo - v, v - hi));
@@ -84,8 +76,7 @@ static std::size_t reaching(const AtomRun& run, const Floats& px, const Floats& 
   return count;
 }
 
-// W = w K(q) with q = |d|^2 / h^2 and d = p - a: grad W = 2 w K'(q) / h^2 d. The atom's centre a
-// moves by v, so that dW/dt = -grad W . v.
+// W = w K(q) with q = |d|^2 / h^2 and d = p - a: grad W = 2 w K'(q) / h^2 d.
 template <class K, bool kMoves>
 void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, PointRun& points) {
   for (std::size_t first = 0; first < points.count; first += kLanes) {
@@ -96,7 +87,7 @@ void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, Poin
       *reinterpret_cast<Floats*>(a + first) = v;
     };
     const Floats px = load(points.p[0]), py = load(points.p[1]), pz = load(points.p[2]);
-    Floats value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, change{}, fx{}, fy{}, fz{};
+    Floats value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, fx{}, fy{}, fz{};
     std::uint16_t indices[AtomRun::kMost];
     const std::size_t count = reaching(run, px, py, pz, indices);
     for (std::size_t n = 0; n < count; ++n) {
@@ -112,14 +103,49 @@ void add(const AtomRun& run, std::span<const Vec3> velocities, float scale, Poin
       slopes += slope;
       if constexpr (kMoves) {
         const Vec3 v = scale * velocities[run.number[i]];
-        change -= k * (v.x * x + v.y * y + v.z * z);
         fx += v.x * slope, fy += v.y * slope, fz += v.z * slope;
       }
     }
     store(value, points.value), store(magnitude, points.magnitude);
     store(gx, points.gradient[0]), store(gy, points.gradient[1]), store(gz, points.gradient[2]);
-    store(slopes, points.slopes), store(change, points.change);
+    store(slopes, points.slopes);
     store(fx, points.flow[0]), store(fy, points.flow[1]), store(fz, points.flow[2]);
+  }
+}
+
+// The Jacobian of 2 w K' / h^2 d is 2 w K' / h^2 I + 4 w K'' / h^4 d d^T.
+template <class K>
+void bend(const AtomRun& run, BendRun& points) {
+  for (std::size_t first = 0; first < points.count; first += kLanes) {
+    const auto at = [&](BendRun::Each& a) -> Floats& {
+      return *reinterpret_cast<Floats*>(a + first);
+    };
+    const Floats px = at(points.p[0]), py = at(points.p[1]), pz = at(points.p[2]);
+    Floats gx{}, gy{}, gz{}, identity{}, xx{}, yy{}, zz{}, xy{}, xz{}, yz{};
+    Floats magnitude{}, size{}, terms{};
+    std::uint16_t indices[AtomRun::kMost];
+    const std::size_t count = reaching(run, px, py, pz, indices);
+    for (std::size_t n = 0; n < count; ++n) {
+      const std::size_t i = indices[n];
+      const float inverse2 = run.inverse2[i], k = 2 * run.weight[i] * inverse2;
+      const Floats x = px - run.x[i], y = py - run.y[i], z = pz - run.z[i];
+      const Floats r2 = x * x + y * y + z * z, q = r2 * inverse2;
+      const Floats k1 = k * K::slope(q), k2 = (2 * k * inverse2) * K::curvature(q);
+      gx += k1 * x, gy += k1 * y, gz += k1 * z;
+      identity += k1;
+      const Floats kx = k2 * x, ky = k2 * y;
+      xx += kx * x, xy += kx * y, xz += kx * z, yy += ky * y, yz += ky * z, zz += k2 * z * z;
+      const float own = std::abs(run.weight[i]) * inverse2 * std::sqrt(inverse2);
+      const auto near = q < 1 + 0x1p-18F;
+      magnitude += metaballs::abs(k1) + metaballs::abs(k2) * r2;
+      size += near ? Floats{} + own : Floats{};
+      terms += near ? Floats{} + 1 : Floats{};
+    }
+    at(points.gradient[0]) = gx, at(points.gradient[1]) = gy, at(points.gradient[2]) = gz;
+    at(points.hessian[0]) = identity + xx, at(points.hessian[1]) = identity + yy;
+    at(points.hessian[2]) = identity + zz, at(points.hessian[3]) = xy;
+    at(points.hessian[4]) = xz, at(points.hessian[5]) = yz;
+    at(points.magnitude) = magnitude, at(points.size) = size, at(points.terms) = terms;
   }
 }
 
@@ -129,7 +155,7 @@ void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3
                 const DPoint3& p, ExactSums& sums) {
   using metaballs::abs;
   using V = Doubles;
-  V value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{}, change{};
+  V value{}, magnitude{}, gx{}, gy{}, gz{}, slopes{};
   V fx{}, fy{}, fz{}, wx{}, wy{}, wz{};
   for (std::size_t i = 0; i < list.size(); i += kLanes) {
     const AtomLanes<V> a(atoms, list, i, p);  // its x is that of -d
@@ -150,18 +176,16 @@ void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3
       }
       slope *= abs(k);
       slopes += slope;
-      change -= k * (vx * a.x + vy * a.y + vz * a.z);
       fx += slope * vx, fy += slope * vy, fz += slope * vz;
       wx += size * vx, wy += size * vy, wz += size * vz;
     }
   }
-  const V u = metaballs::sums(value, magnitude, gx, gy, gz, slopes, change, V{});
+  const V u = metaballs::sums(value, magnitude, gx, gy, gz, slopes, V{}, V{});
   const V v = metaballs::sums(fx, fy, fz, wx, wy, wz, V{}, V{});
   sums.value += u[0];
   sums.magnitude += u[1];
   sums.gradient += DVec3(u[2], u[3], u[4]);
   sums.slopes += u[5];
-  sums.change += u[6];
   sums.flow += DVec3(v[0], v[1], v[2]);
   sums.weighed += DVec3(v[3], v[4], v[5]);
 }
@@ -176,6 +200,9 @@ const AtomLoops kAtomLoops{gather,
                                else
                                  add<K, true>(run, velocities, scale, points);
                              });
+                           },
+                           [](Kernel kernel, const AtomRun& run, BendRun& points) {
+                             withKernel(kernel, [&]<class K>(K) { bend<K>(run, points); });
                            },
                            [](Kernel kernel, std::span<const Atom> atoms, AtomList list,
                               std::span<const Vec3> velocities, const DPoint3& p, ExactSums& sums) {

@@ -39,17 +39,28 @@ struct alignas(metaballs::kLaneAlignment) PointRun {
   Each value, magnitude;  // of w K and of |w K|
   Each gradient[3];
   Each slopes;            // of |grad W|
-  Each change;            // of -grad W . v
   Each flow[3];           // of |grad W| v
   std::size_t count = 0;  // beyond it, numbers may be anything
 };
 
-// The same at one point, in double and in the units of space.
+// The same for what shape() asks.
+struct alignas(metaballs::kLaneAlignment) BendRun {
+  static constexpr std::size_t kMost = PointRun::kMost;
+  using Each = float[kMost];
+  Each p[3];
+  Each gradient[3];
+  Each hessian[6];        // xx, yy, zz, xy, xz, yz
+  Each magnitude;         // of |grad W| / |d| + |4 w K'' / h^4 d^2|
+  Each size;              // of |w| / h^3, where the point is in the support or next to it
+  Each terms;             // of 1, where it is
+  std::size_t count = 0;  // as in PointRun
+};
+
+// What a PointRun has, at one point, in double and in the units of space.
 struct ExactSums {
   double value = 0, magnitude = 0;
   DVec3 gradient{};
   double slopes = 0;
-  double change = 0;
   DVec3 flow{};
   DVec3 weighed{};  // of |w K| v
 };
@@ -60,6 +71,7 @@ struct AtomLoops {
   std::size_t (*gather)(std::span<const Atom>, AtomList, const CellFrame&, AtomRun&);
   // `velocities`: of all atoms, multiplied by `scale`; empty: sums with v are not made.
   void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale, PointRun&);
+  void (*bend)(Kernel, const AtomRun&, BendRun&);
   // Without velocities there are no slopes, either.
   void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
                      const DPoint3&, ExactSums&);

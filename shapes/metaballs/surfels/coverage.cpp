@@ -59,7 +59,7 @@ std::vector<Place> places(const MovingField& field, std::uint64_t first, std::si
     field.at(points, at);
     std::size_t rest = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto& [value, gradient, change, flow] = at[i];
+      const auto& [value, gradient, flow] = at[i];
       const double slope = glm::length(gradient);
       if (!(slope > 0)) continue;
       const DVec3 n = -gradient / slope;

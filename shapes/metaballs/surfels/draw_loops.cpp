@@ -3,23 +3,10 @@
 
 #include "shapes/metaballs/surfels/draw_loops.h"
 
-#ifdef __AVX__
-#include <immintrin.h>
-#endif
-
 namespace pbrt::surfels {
 inline namespace PBRT_LANES {
 
-using metaballs::bits, metaballs::max, metaballs::min, metaballs::square;
-
-static Floats squareRoot(Floats a) {
-#ifdef __AVX__
-  return reinterpret_cast<Floats>(_mm256_sqrt_ps(reinterpret_cast<__m256>(a)));
-#else
-  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
-#endif
-}
+using metaballs::bits, metaballs::max, metaballs::min, metaballs::square, metaballs::squareRoot;
 
 struct Vectors {
   Floats x, y, z;

@@ -11,7 +11,6 @@ namespace pbrt::surfels {
 struct FieldAt {
   double value = -1;  // f: zero on the surface, above zero inside
   DVec3 gradient{};   // of f by place
-  double change = 0;  // df/dt at a place that stays (F_q . dq/dt of van Kooten et al. 2007)
   DVec3 flow{};       // velocity of the fluid about there, length per time (D_env)
 };
 
@@ -35,6 +34,8 @@ class MovingField {
   virtual double grain() const = 0;
   // f within 1e-4 of what the real numbers say, where it matters: about its zeros.
   virtual void at(std::span<const DPoint3> points, std::span<FieldAt> out) const = 0;
+  // The gradient within 1e-4 of itself; the Hessian within 1e-3 of itself, or such that curvatures
+  // are within 1e-3 of what a ball as wide as the grain has.
   virtual void shape(std::span<const DPoint3> points, std::span<ShapeAt> out) const = 0;
   // Places near which to look for the surface: f is above zero at each, or it is on the surface
   // itself but for a small part of the grain. Number `first + i` gives out[i]; over many numbers

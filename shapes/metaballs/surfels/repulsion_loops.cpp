@@ -19,15 +19,6 @@ void store(float* to, const Floats& v) {
   __builtin_memcpy(to, &v, sizeof(v));
 }
 
-Floats root(Floats v) {
-#ifdef __AVX__
-  return __builtin_ia32_sqrtps256(v);
-#else
-  for (int i = 0; i < kLanes; ++i) v[i] = __builtin_sqrtf(v[i]);
-  return v;
-#endif
-}
-
 // The surfels of a cell and those about it, from the corner of the cell in reaches.
 struct Surroundings {
   float place[3][kMost + 2 * kLanes], normal[3][kMost + 2 * kLanes];
@@ -83,7 +74,7 @@ surfels::Repulsion repelOne(const surfels::GridView& grid, const Surroundings& a
   for (std::uint32_t k = 0; k < all.count; k += kLanes) {
     const Floats dx = px - load(all.place[0] + k), dy = py - load(all.place[1] + k),
                  dz = pz - load(all.place[2] + k);
-    const Floats r = root(dx * dx + dy * dy + dz * dz);
+    const Floats r = squareRoot(dx * dx + dy * dy + dz * dz);
     // Those on the other side of a thin sheet, or across a gap, are no neighbours on the surface.
     const Floats along =
         nx * load(all.normal[0] + k) + ny * load(all.normal[1] + k) + nz * load(all.normal[2] + k);

@@ -13,7 +13,7 @@
 namespace pbrt::motion {
 namespace {
 
-using metaballs::Floats, metaballs::kLanes;
+using metaballs::Floats, metaballs::kLanes, metaballs::squareRoot;
 
 constexpr float kSupport = 2;        // over the spacing
 constexpr std::size_t kPiece = 128;  // particles in a piece of parallel work
@@ -32,11 +32,6 @@ Floats gather(const std::vector<float>& numbers, const std::uint32_t* which) {
   Floats lanes;
   for (int i = 0; i < kLanes; ++i) lanes[i] = numbers[which[i]];
   return lanes;
-}
-
-Floats squareRoot(Floats a) {
-  for (int i = 0; i < kLanes; ++i) a[i] = std::sqrt(a[i]);
-  return a;
 }
 
 // The kernel is (1 - r / h)^3, of Desbrun and Gascuel 1996 (spiky in Mueller et al. 2003), over its

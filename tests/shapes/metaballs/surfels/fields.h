@@ -40,7 +40,6 @@ class Balls final : public MovingField {
         if (f <= a.value) continue;
         a.value = f, a.gradient = -2 * steepness_ / b.r * (x / b.r);
         a.flow = b.velocity + glm::cross(b.spin, x);
-        a.change = -glm::dot(a.gradient, a.flow);
       }
     }
   }
