@@ -169,7 +169,9 @@ void Simulation::State::sort() {
 }
 
 void Simulation::State::push(double extent) {
-  neighbours_.store(surfels_);
+  crowding_.clear();
+  for (const Motion& m : motions_) crowding_.push_back(m.crowding);
+  neighbours_.store(surfels_, crowding_);
   const auto cells = neighbours_.cells();
   repulsions_.resize(surfels_.size());
   struct Sums {
@@ -182,6 +184,9 @@ void Simulation::State::push(double extent) {
     for (std::size_t i = cells[begin].first; i < cells[end - 1].first + cells[end - 1].count; ++i) {
       const Repulsion& r = repulsions_[i];
       std::copy_n(r.push, 3, motions_[i].push);
+      float& crowding = motions_[i].crowding;
+      const float count = r.neighbours + 1;
+      crowding = crowding > 0 ? 0.5F * (r.crowding + count) : count;
       surfels_[i].density = r.density;
       surfels_[i].radius = static_cast<float>(report_.reach) * cover(r);
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));
@@ -197,7 +202,6 @@ void Simulation::State::push(double extent) {
   const auto n = static_cast<double>(surfels_.size());
   const double mean = all.density / n;
   report_.evenness = std::sqrt(std::max(0.0, all.squares / n - mean * mean)) / mean;
-  evenness_ = static_cast<float>(report_.evenness);
   report_.residual = all.value;
   // Each surfel stands for a part of the area, that within its reach shared with its neighbours:
   // the reach for which, with that area spread evenly, each has as many neighbours as are wanted.
