@@ -178,6 +178,8 @@ void Simulation::State::push(double extent) {
     double density = 0, squares = 0, area = 0, value = 0;
   };
   std::vector<Sums> sums(chunks(cells.size()));
+  // The less there is to be made even, the longer counts are averaged.
+  const float own = std::clamp(4 * evenness_, 0.1F, 0.5F);
   forChunks(cells.size(), [&](std::size_t begin, std::size_t end) {
     repel(neighbours_.view(), cells.subspan(begin, end - begin), repulsions_.data());
     Sums& sum = sums[begin / kChunk];
@@ -186,7 +188,7 @@ void Simulation::State::push(double extent) {
       std::copy_n(r.push, 3, motions_[i].push);
       float& crowding = motions_[i].crowding;
       const float count = r.neighbours + 1;
-      crowding = crowding > 0 ? 0.5F * (r.crowding + count) : count;
+      crowding = crowding > 0 ? r.crowding + own * (count - r.crowding) : count;
       surfels_[i].density = r.density;
       surfels_[i].radius = static_cast<float>(report_.reach) * cover(r);
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));
@@ -202,6 +204,7 @@ void Simulation::State::push(double extent) {
   const auto n = static_cast<double>(surfels_.size());
   const double mean = all.density / n;
   report_.evenness = std::sqrt(std::max(0.0, all.squares / n - mean * mean)) / mean;
+  evenness_ = static_cast<float>(report_.evenness);
   report_.residual = all.value;
   // Each surfel stands for a part of the area, that within its reach shared with its neighbours:
   // the reach for which, with that area spread evenly, each has as many neighbours as are wanted.

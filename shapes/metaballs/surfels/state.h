@@ -57,6 +57,7 @@ class Simulation::State {
   std::vector<std::uint32_t> lost_;  // surfels that are not on the surface
   Neighbours neighbours_;
   double reach_ = 0;          // of the coming step
+  float evenness_ = 0;        // after the last step
   std::uint64_t steps_ = 0;   // begun
   std::uint64_t looked_ = 0;  // number of the next seed
   Report report_;
