@@ -63,11 +63,13 @@ std::span<const std::uint32_t> Neighbours::sort(std::span<const Surfel> surfels,
   return order_;
 }
 
-void Neighbours::store(std::span<const Surfel> surfels) {
+void Neighbours::store(std::span<const Surfel> surfels, std::span<const float> crowding) {
   for (int axis = 0; axis < 3; ++axis) {
     place_[axis].resize(surfels.size() + 8);
     normal_[axis].resize(surfels.size() + 8);
   }
+  crowding_.assign(crowding.begin(), crowding.end());
+  crowding_.resize(surfels.size() + 8);
   forChunks(surfels.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // A hair's breadth, that no two are at quite the same place and stay there.
@@ -86,6 +88,7 @@ GridView Neighbours::view() const {
   GridView v;
   for (int axis = 0; axis < 3; ++axis)
     v.place[axis] = place_[axis].data(), v.normal[axis] = normal_[axis].data();
+  v.crowding = crowding_.data();
   v.keys = keys_.data(), v.starts = starts_.data(), v.shift = shift_;
   return v;
 }

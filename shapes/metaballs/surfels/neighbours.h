@@ -35,6 +35,7 @@ inline std::uint32_t bucketOf(std::uint64_t key, unsigned shift) {
 struct GridView {
   const float* place[3] = {};  // of a surfel from the corner of its cell, in reaches
   const float* normal[3] = {};
+  const float* crowding = nullptr;
   const std::uint64_t* keys = nullptr;
   const std::uint32_t* starts = nullptr;  // bucket b: the surfels from starts[b] to starts[b + 1]
   unsigned shift = 0;
@@ -45,8 +46,9 @@ class Neighbours {
   // `reach` above zero. Returns the order of the cells: number i is to be surfel order[i]; what
   // follows speaks of surfels in that order.
   std::span<const std::uint32_t> sort(std::span<const Surfel> surfels, double reach);
-  // The surfels, now in that order.
-  void store(std::span<const Surfel> surfels);
+  // The surfels, now in that order, and for each what is to be averaged over those within the
+  // reach.
+  void store(std::span<const Surfel> surfels, std::span<const float> crowding);
 
   std::span<const Cell> cells() const { return cells_; }
   GridView view() const;
@@ -63,7 +65,7 @@ class Neighbours {
   std::vector<std::uint64_t> keys_, unsorted_;
   std::vector<std::uint32_t> starts_, order_;
   std::vector<Cell> cells_;
-  std::vector<float> place_[3], normal_[3];
+  std::vector<float> place_[3], normal_[3], crowding_;
 };
 
 // The key of the cell (i, j, k) away.

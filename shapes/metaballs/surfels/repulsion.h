@@ -10,6 +10,7 @@ struct Repulsion {
   float push[3] = {};    // where it is to go, in reaches, across its normal
   float density = 0;     // sigma
   float neighbours = 0;  // how many there are
+  float crowding = 0;    // mean of theirs and its own, the nearer the more
 };
 
 // For the surfels of the given cells; out[i] is that of surfel i.

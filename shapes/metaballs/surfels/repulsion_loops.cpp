@@ -22,6 +22,7 @@ void store(float* to, const Floats& v) {
 // The surfels of a cell and those about it, from the corner of the cell in reaches.
 struct Surroundings {
   float place[3][kMost + 2 * kLanes], normal[3][kMost + 2 * kLanes];
+  float crowding[kMost + 2 * kLanes];
   std::uint32_t count;
 
   // Its own cell comes first: where not all are seen, at least the nearest are.
@@ -36,6 +37,7 @@ struct Surroundings {
       add(grid, first, end, {static_cast<float>(i), static_cast<float>(j), static_cast<float>(k)});
     }
     for (float* x : place) store(x + count, Floats{} + 9);  // out of everyone's reach
+    store(crowding + count, Floats{});
   }
 
  private:
@@ -49,6 +51,7 @@ struct Surroundings {
         store(place[axis] + count, load(grid.place[axis] + first) + offset.of[axis]);
         store(normal[axis] + count, load(grid.normal[axis] + first));
       }
+      store(crowding + count, load(grid.crowding + first));
       count += end - first < kLanes ? end - first : kLanes;
     }
   }
@@ -66,7 +69,7 @@ struct Surroundings {
 // of what is safe. The step is then at most 1/2 sum c^2 / sum c, half a reach, however dense.
 surfels::Repulsion repelOne(const surfels::GridView& grid, const Surroundings& all,
                             std::uint32_t i) {
-  Floats sigma{}, near{}, count{}, x{}, y{}, z{};
+  Floats sigma{}, near{}, count{}, crowding{}, x{}, y{}, z{};
   const Floats px = Floats{} + grid.place[0][i], py = Floats{} + grid.place[1][i],
                pz = Floats{} + grid.place[2][i];
   const Floats nx = Floats{} + grid.normal[0][i], ny = Floats{} + grid.normal[1][i],
@@ -81,14 +84,16 @@ surfels::Repulsion repelOne(const surfels::GridView& grid, const Surroundings& a
     const Floats c = along > 0 ? positivePart(1 - r) : Floats{};
     sigma += c * c * c;
     near += c;
+    crowding += c * load(all.crowding + k);
     count += c > 0 ? Floats{} + 1 : Floats{};
     const Floats force = c * c / max(r, Floats{} + 1e-9F);
     x += force * dx, y += force * dy, z += force * dz;
   }
-  const Floats total = sums(sigma, near, count, x, y, z, Floats{}, Floats{});
+  const Floats total = sums(sigma, near, count, x, y, z, crowding, Floats{});
   surfels::Repulsion result;
   result.density = total[0];
   result.neighbours = max(total[2] - 1, 0.F);
+  result.crowding = total[6] / (total[1] > 1 ? total[1] : 1);
   if (const float others = total[1] - 1; others > 1e-6F) {
     const float n[3] = {nx[0], ny[0], nz[0]};
     const float out = n[0] * total[3] + n[1] * total[4] + n[2] * total[5];

@@ -169,19 +169,26 @@ void Simulation::State::sort() {
 }
 
 void Simulation::State::push(double extent) {
-  neighbours_.store(surfels_);
+  crowding_.clear();
+  for (const Motion& m : motions_) crowding_.push_back(m.crowding);
+  neighbours_.store(surfels_, crowding_);
   const auto cells = neighbours_.cells();
   repulsions_.resize(surfels_.size());
   struct Sums {
     double density = 0, squares = 0, area = 0, value = 0;
   };
   std::vector<Sums> sums(chunks(cells.size()));
+  // The less there is to be made even, the longer counts are averaged.
+  const float own = std::clamp(4 * evenness_, 0.1F, 0.5F);
   forChunks(cells.size(), [&](std::size_t begin, std::size_t end) {
     repel(neighbours_.view(), cells.subspan(begin, end - begin), repulsions_.data());
     Sums& sum = sums[begin / kChunk];
     for (std::size_t i = cells[begin].first; i < cells[end - 1].first + cells[end - 1].count; ++i) {
       const Repulsion& r = repulsions_[i];
       std::copy_n(r.push, 3, motions_[i].push);
+      float& crowding = motions_[i].crowding;
+      const float count = r.neighbours + 1;
+      crowding = crowding > 0 ? r.crowding + own * (count - r.crowding) : count;
       surfels_[i].density = r.density;
       surfels_[i].radius = static_cast<float>(report_.reach) * cover(r);
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));

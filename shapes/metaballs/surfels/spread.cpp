@@ -11,8 +11,16 @@
 namespace pbrt::surfels {
 namespace {
 
+// Surfels within the reach of one that is not spared.
+constexpr float kFew = 4;
+
 // Places looked at in a step at which no hole is found.
 constexpr std::size_t kLooks = 192;
+// In a step of which many show holes, one for so many surfels at most.
+constexpr std::size_t kSurfelsForALook = 32;
+
+// Counts of neighbours that differ by less than this part do so by chance.
+constexpr float kByChance = 0.15F;
 
 // The unit vector across n in a direction, given as a part of the circle.
 DVec3 across(const Normal3& n, float part) {
@@ -23,16 +31,16 @@ DVec3 across(const Normal3& n, float part) {
 }  // namespace
 
 // Dispersion (van Kooten et al. 2007, section 4.2): the surfel beside which this one is to go on,
-// or itself. Sigma differs by as much as the threshold also by chance, so that the fewer ask the
-// more even the cover is, and none at rest; and never all at once, since they do not know of each
-// other.
+// or itself. By sigma one cannot tell a piece with too few surfels from one in which they lie more
+// evenly, so counts are compared, averaged until chance is small. The chance to go is the part by
+// which the partner has less. Of two pieces with the shares a and b of the area and the densities A
+// and B, the first has a A n surfels, of which the part b B (A - B) / A go to the other: as a A + b
+// B = 1, (A - 1) falls by the factor 1 - B in a step, whatever the shares are.
 std::size_t Simulation::State::partner(std::size_t i) const {
-  const float share = std::min(0.25F, 4 * (evenness_ - 0.1F));
-  if (!(share > 0)) return i;
   const std::uint64_t random = hash(settings_.seed, steps_, i);
-  if (uniformFloat(static_cast<std::uint32_t>(random)) >= share) return i;
   const std::size_t other = (random >> 32U) * surfels_.size() >> 32U;
-  return surfels_[i].density - surfels_[other].density > kWorthWhile ? other : i;
+  const float less = 1 - motions_[other].crowding / motions_[i].crowding;
+  return uniformFloat(static_cast<std::uint32_t>(random)) < less - kByChance ? other : i;
 }
 
 // A place on the edge of the influence of surfel i, that goes to `at`, in any direction.
@@ -120,12 +128,14 @@ bool Simulation::State::closeHoles(const MovingField& field) {
     return covered ? std::nullopt : std::optional(hole);
   };
   std::vector<Hole> holes;
-  for (std::size_t looks = kLooks, before = 0;; looks *= 2, before = holes.size()) {
+  const std::size_t most = surfels_.size() / kSurfelsForALook;
+  for (std::size_t looks = kLooks, all = looks, before = 0;; before = holes.size()) {
     const auto places = look(field, looks);
     report_.looked += places.size();
     for (const Landing& l : places)
       if (const auto hole = holeAt(l)) holes.push_back(*hole);
-    if (64 * (holes.size() - before) <= places.size() || 16 * looks > surfels_.size()) break;
+    if (64 * (holes.size() - before) <= places.size() || all >= most) break;
+    looks = std::min(2 * looks, most - all), all += looks;
   }
   report_.holes = holes.size();
   // The surfels are to cover the part of the area that is not covered, too.
@@ -155,7 +165,8 @@ bool Simulation::State::closeHoles(const MovingField& field) {
   return any;
 }
 
-// Sets a surfel of which the neighbours are many at a place where there is none.
+// Sets a surfel of which the neighbours are many at a place where there is none. One that has
+// hardly any is needed where it is.
 bool Simulation::State::moveCrowded(const Landing& place) {
   Rng rng(hash(settings_.seed, steps_, report_.moved));
   const auto count = static_cast<std::uint32_t>(surfels_.size());
@@ -164,7 +175,7 @@ bool Simulation::State::moveCrowded(const Landing& place) {
     if (const std::size_t other = rng.uniform(count);
         surfels_[other].density > surfels_[crowded].density)
       crowded = other;
-  if (surfels_[crowded].density < 1 + kWorthWhile) return false;
+  if (motions_[crowded].crowding < kFew) return false;
   set(crowded, place);
   ++report_.moved;
   return true;

@@ -9,10 +9,6 @@
 
 namespace pbrt::surfels {
 
-// T_d of the source: what sigma must differ by for a move to be worth while. Half of what a surfel
-// adds to its own sigma.
-inline constexpr float kWorthWhile = 0.5F;
-
 class Simulation::State {
  public:
   explicit State(const Settings& settings) : settings_(settings) {}
@@ -29,6 +25,9 @@ class Simulation::State {
     DVec3 lag{};      // how far the fluid there has gone ahead
     float push[3]{};  // by its neighbours, in reaches
     float value = 0;  // f
+    // Surfels within the reach, itself among them, averaged over neighbours and some steps. Zero
+    // where it was set anew.
+    float crowding = 0;
   };
 
   // simulation.cpp
@@ -53,6 +52,7 @@ class Simulation::State {
   std::vector<Motion> motions_, motionsBefore_;
   std::vector<Landing> landings_;
   std::vector<DVec3> lags_;
+  std::vector<float> crowding_;
   std::vector<Repulsion> repulsions_;
   std::vector<std::uint32_t> lost_;  // surfels that are not on the surface
   Neighbours neighbours_;

@@ -27,7 +27,7 @@ std::vector<Surfel> sorted(Neighbours& neighbours, const std::vector<Surfel>& su
                            double reach) {
   std::vector<Surfel> result;
   for (const std::uint32_t i : neighbours.sort(surfels, reach)) result.push_back(surfels[i]);
-  neighbours.store(result);
+  neighbours.store(result, std::vector<float>(result.size()));
   return result;
 }
 

@@ -93,10 +93,19 @@ TEST(Spread, APieceThatSplitsOffIsCoveredInFewSteps) {
   EXPECT_LE(stepsToCover(simulation, both), 6);
   for (int i = 0; i < 40; ++i) simulation.step(both, 0.01);
   EXPECT_LT(simulation.report().evenness, 0.15);
-  // Its share by area is a fifth. Dispersion ends where sigma differs by a half: with means of 1.9
-  // and 1.4, as sigma - 1 goes by about the density's power of 3/2, at 0.58 of the density.
-  EXPECT_GT(1 - shareOfFirst(simulation, both), 0.58 * 0.2);
-  EXPECT_LT(1 - shareOfFirst(simulation, both), 0.22);
+  EXPECT_NEAR(1 - shareOfFirst(simulation, both), 0.2, 0.05 * 0.2);
+}
+
+// Surfels of which half are to be elsewhere, and back: dispersion goes on until densities agree.
+TEST(Spread, DispersionEndsWithSharesByArea) {
+  const Balls one({{{0, 0, 0}, 1}}), same({{{0, 0, 0}, 1}, {{1e4, 0, 0}, 1}});
+  Simulation simulation({.count = 6000});
+  for (int i = 0; i < 30; ++i) simulation.step(one, 0.01);
+  for (int i = 0; i < 15; ++i) simulation.step(same, 0.01);
+  EXPECT_NEAR(shareOfFirst(simulation, same), 0.5, 0.05 * 0.5);
+  const Balls unlike({{{0, 0, 0}, 1}, {{1e4, 0, 0}, 0.5}});
+  for (int i = 0; i < 15; ++i) simulation.step(unlike, 0.01);
+  EXPECT_NEAR(shareOfFirst(simulation, unlike), 0.8, 0.05 * 0.2);
 }
 
 TEST(Spread, FarPiecesHaveSharesByArea) {
