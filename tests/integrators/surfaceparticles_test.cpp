@@ -135,6 +135,21 @@ TEST(SurfaceParticles, AreLitByEveryKindOfLight) {
     expectAlike(light + kBlob + kFloor);
 }
 
+// As rays do, each disc is where its surface is at the time of the ray: a ball that crosses the
+// picture, and a blob that turns in it, with their shadows.
+TEST(SurfaceParticles, MoveWithTheirSurface) {
+  const auto moving = [](const std::string& motion, const std::string& shape) {
+    return "AttributeBegin ActiveTransform EndTime " + motion + " ActiveTransform All " + shape +
+           "AttributeEnd ";
+  };
+  for (const char* shutter : {"\"float shutteropen\" 0 \"float shutterclose\" 1 ",
+                              "\"float shutteropen\" 0.7 \"float shutterclose\" 0.7 "}) {
+    expectAlike(kLamp + moving("Translate 1.2 0.4 0 ", kBall) + kFloor, kCamera + shutter);
+    expectAlike(kLamp + moving("Rotate 90 0 1 0 Scale 0.7 1 1.2 ", kBlob) + kFloor,
+                kCamera + shutter);
+  }
+}
+
 TEST(SurfaceParticles, MayThemselvesBeALight) {
   expectAlike(kFloor + "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] " + kBall +
                   "AttributeEnd ",
