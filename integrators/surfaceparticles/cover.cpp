@@ -98,8 +98,7 @@ double Cover::pixelsPerArea(Point2i resolution) const {
   return seen > 0 ? sum / seen : 0;
 }
 
-// Where a surfel finds no surface below, as in a hole of an alpha texture, it takes what its
-// neighbour found.
+// A surfel that finds no surface below, as in a hole of an alpha texture, is left out.
 void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
   Skin& skin = skins_[number];
   const std::size_t first = bases_.size();
@@ -112,16 +111,14 @@ void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
         bases[i] = {at->p, at->dpdu, at->dpdv, at->dndu, at->dndv, at->uv, at->primitive, number};
     }
   });
-  const auto found = std::ranges::find(bases, number, &Base::skin);
-  if (found == bases.end()) return bases_.resize(first);
-  for (Base last = *found; Base & base : bases) {
-    if (base.skin != number) base = last;
-    last = base;
-  }
-  const Surfel& surfel = surfels[static_cast<std::size_t>(found - bases.begin())];
-  skin.anywhere = *below(surfel, skin);
-  skin.reversed = glm::dot(skin.anywhere.n, surfel.n) < 0;
-  skin.discs.set(surfels, DPoint3(0));
+  std::vector<Surfel> there;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    if (bases[i].skin == number) bases[there.size()] = bases[i], there.push_back(surfels[i]);
+  bases_.resize(first + there.size());
+  if (there.empty()) return;
+  skin.anywhere = *below(there.front(), skin);
+  skin.reversed = glm::dot(skin.anywhere.n, there.front().n) < 0;
+  skin.discs.set(there, DPoint3(0));
 }
 
 // The surface that is nearest to the surfel along its normal.

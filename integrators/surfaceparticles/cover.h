@@ -16,7 +16,8 @@ class Cover {
   };
 
   // Covers them where they are at the start of their motions, with which the surfels then go.
-  // `world` must outlive it. `resolution` is the picture's. On all threads; the result does not depend on their number.
+  // `world` must outlive it. `resolution` is the picture's. On all threads; the result does not
+  // depend on their number.
   Cover(const World& world, Point2i resolution, const Settings& settings);
 
   // What each ray sees first of the surfels and of the scene's other shapes, `width` rays to a row.
