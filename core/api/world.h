@@ -1,6 +1,7 @@
 #pragma once
 // What an integrator may ask of a scene.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -35,6 +36,8 @@ struct ImplicitSurface {
   const ImplicitField* field = nullptr;  // the scene owns it
   Transform toRender;                    // from the field's space; of one that moves, at the start
   std::uint32_t geometry = Hit::kNone, instance = Hit::kNone;  // as in a hit of it
+  // Of one that moves: toRender at the time of a ray; valid as long as the scene. Empty: it rests.
+  std::function<Transform(float time)> toRenderAt = {};
 
   bool isOf(const Hit& hit) const { return hit.geometry == geometry && hit.instance == instance; }
 };

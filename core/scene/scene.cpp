@@ -103,20 +103,28 @@ Bsdf Scene::bsdf(SurfaceInteraction& at, Scratch& scratch) const {
 
 ImplicitSurfaces Scene::implicitSurfaces() const {
   ImplicitSurfaces all;
-  const auto add = [&](const Group& group, const Transform& toRender, std::uint32_t instance) {
+  const auto add = [&](const Group& group, const Transform& toRender, const Motion* motion,
+                       std::uint32_t instance) {
     for (std::size_t i = 0; i < group.geometries.size(); ++i) {
       const Geometry& g = *group.geometries[i];
-      if (const ImplicitField* field = g.mesh ? nullptr : g.shape->implicit())
-        all.surfaces.push_back(
-            {field, toRender * g.toGroup, static_cast<std::uint32_t>(i), instance});
-      else
-        all.alone = false;
+      const ImplicitField* field = g.mesh ? nullptr : g.shape->implicit();
+      all.alone = all.alone && field;
+      if (!field) continue;
+      all.surfaces.push_back(
+          {field, toRender * g.toGroup, static_cast<std::uint32_t>(i), instance});
+      if (motion)
+        all.surfaces.back().toRenderAt = [this, motion, &g](float time) {
+          Ray ray;
+          ray.time = time;
+          return motion->at(root_.accel.fraction(ray)) * g.toGroup;
+        };
     }
   };
-  add(root_, Transform(), Hit::kNone);
+  add(root_, Transform(), nullptr, Hit::kNone);
   for (std::size_t i = 0; i < instances_.size(); ++i) {
     const Instance& place = instances_[i];
-    add(*place.group, place.motion ? place.motion->at(0) : place.toRender,
+    const Motion* motion = place.motion ? &*place.motion : nullptr;
+    add(*place.group, motion ? motion->at(0) : place.toRender, motion,
         static_cast<std::uint32_t>(root_.geometries.size() + i));
   }
   return all;

@@ -98,8 +98,7 @@ double Cover::pixelsPerArea(Point2i resolution) const {
   return seen > 0 ? sum / seen : 0;
 }
 
-// Where a surfel finds no surface below, as in a hole of an alpha texture, it takes what its
-// neighbour found.
+// A surfel that finds no surface below, as in a hole of an alpha texture, is left out.
 void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
   Skin& skin = skins_[number];
   const std::size_t first = bases_.size();
@@ -112,16 +111,14 @@ void Cover::cover(std::uint32_t number, std::span<const Surfel> surfels) {
         bases[i] = {at->p, at->dpdu, at->dpdv, at->dndu, at->dndv, at->uv, at->primitive, number};
     }
   });
-  const auto found = std::ranges::find(bases, number, &Base::skin);
-  if (found == bases.end()) return bases_.resize(first);
-  for (Base last = *found; Base & base : bases) {
-    if (base.skin != number) base = last;
-    last = base;
-  }
-  const Surfel& surfel = surfels[static_cast<std::size_t>(found - bases.begin())];
-  skin.anywhere = *below(surfel, skin);
-  skin.reversed = glm::dot(skin.anywhere.n, surfel.n) < 0;
-  skin.discs.set(surfels, DPoint3(0));
+  std::vector<Surfel> there;
+  for (std::size_t i = 0; i < surfels.size(); ++i)
+    if (bases[i].skin == number) bases[there.size()] = bases[i], there.push_back(surfels[i]);
+  bases_.resize(first + there.size());
+  if (there.empty()) return;
+  skin.anywhere = *below(there.front(), skin);
+  skin.reversed = glm::dot(skin.anywhere.n, there.front().n) < 0;
+  skin.discs.set(there, DPoint3(0));
 }
 
 // The surface that is nearest to the surfel along its normal.
@@ -160,6 +157,26 @@ Hit Cover::passImplicit(Ray ray, Hit hit) const {
   return hit.found() && isImplicit(hit) ? Hit() : hit;
 }
 
+// One that moves is met by rays that have moved the other way, each by what its time asks for. They
+// keep their parameters.
+void Cover::draw(const Skin& skin, std::span<const Ray> rays, int width, const Beam& beam,
+                 std::span<Fragment> out) {
+  if (!skin.moves()) return skin.discs.draw(beam, out);
+  thread_local std::vector<Ray> carried;
+  thread_local Beam carriedBeam;
+  carried.assign(rays.begin(), rays.end());
+  for (Ray& ray : carried) {
+    const Transform back = skin.moved(ray.time).inverse();
+    ray.o = Point3(back.point(DPoint3(ray.o)));
+    ray.d = Vec3(back.vector(DVec3(ray.d)));
+  }
+  carriedBeam.set(carried, width);
+  skin.discs.draw(carriedBeam, out);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    if (out[i].t < kInfinity)
+      out[i].n = Normal3(glm::normalize(skin.moved(rays[i].time).normal(DVec3(out[i].n))));
+}
+
 void Cover::look(std::span<const Ray* const> rays, int width, std::span<Hit> hits) const {
   // Kept for the next block, so that no memory is asked for.
   thread_local std::vector<Ray> copies;
@@ -171,7 +188,7 @@ void Cover::look(std::span<const Ray* const> rays, int width, std::span<Hit> hit
   fragments.resize(rays.size());
   beam.set(copies, width);
   for (const Skin& skin : skins_) {
-    skin.discs.draw(beam, fragments);
+    draw(skin, copies, width, beam, fragments);
     for (std::size_t i = 0; i < rays.size(); ++i)
       if (const Fragment& f = fragments[i]; f.t < hits[i].t) {
         hits[i] = {
@@ -206,21 +223,26 @@ SurfaceInteraction Cover::surface(const RayDifferential& ray, const Hit& hit) co
   s.error =
       8 * std::numeric_limits<float>::epsilon() * (glm::length(ray.o) + hit.t * glm::length(ray.d));
   s.time = ray.time;
-  s.objectP = skin.toField.point(DPoint3(s.p));
+  const Transform moved = skin.moved(ray.time), back = moved.inverse();
+  const DPoint3 p = back.point(DPoint3(s.p));
+  s.objectP = skin.toField.point(p);
   s.primitive = base.primitive;
   // From the point below the surfel the parameters go on linearly along its tangent plane:
   // p = dpdu du + dpdv dv by least squares.
-  const Vec3 d = s.p - base.p;
+  const Vec3 d(p - DPoint3(base.p));
   const float uu = lengthSquared(base.dpdu), uv = glm::dot(base.dpdu, base.dpdv),
               vv = lengthSquared(base.dpdv), a = glm::dot(base.dpdu, d), b = glm::dot(base.dpdv, d),
               determinant = uu * vv - uv * uv;
   s.uv = base.uv;
   if (determinant > 0) s.uv += Point2(vv * a - uv * b, uu * b - uv * a) / determinant;
-  const auto tangent = [&](const Vec3& v) { return v - glm::dot(v, s.n) * s.n; };
+  const auto tangent = [&](const Vec3& before) {
+    const Vec3 v(moved.vector(DVec3(before)));
+    return v - glm::dot(v, s.n) * s.n;
+  };
   s.dpdu = s.tangent = tangent(base.dpdu);
   s.dpdv = tangent(base.dpdv);
-  s.dndu = base.dndu;
-  s.dndv = base.dndv;
+  s.dndu = Normal3(moved.normal(DVec3(base.dndu)));
+  s.dndv = Normal3(moved.normal(DVec3(base.dndv)));
   if (ray.hasDifferentials) setFootprint(s, ray);
   return s;
 }
@@ -229,11 +251,12 @@ SurfaceInteraction Cover::surface(const RayDifferential& ray, const Hit& hit) co
 float Cover::depth(const Hit& hit, const SurfaceInteraction& at) const {
   if (!isImplicit(hit)) return 0;
   const Skin& skin = skins_[bases_[hit.primitive].skin];
-  const DVec3 up = skin.toField.vector(DVec3(skin.reversed ? -at.n : at.n));
+  const Transform toRender = skin.toRender(at.time);
+  const DVec3 up = toRender.inverse().vector(DVec3(skin.reversed ? -at.n : at.n));
   double depth = 0;
   for (int i = 0; i < 8; ++i) {
     const FieldPoint f = skin.surface.field->at(at.objectP + depth * up);
-    const double step = 1.1 * f.value / glm::length(skin.surface.toRender.normal(f.gradient));
+    const double step = 1.1 * f.value / glm::length(toRender.normal(f.gradient));
     if (!(step > 0 && std::isfinite(step))) break;
     depth += step;
   }

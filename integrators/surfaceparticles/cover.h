@@ -15,8 +15,9 @@ class Cover {
     int steps = 60;         // of the simulation
   };
 
-  // Covers them where they are at the start of their motions. `world` must outlive it.
-  // `resolution` is the picture's. On all threads; the result does not depend on their number.
+  // Covers them where they are at the start of their motions, with which the surfels then go.
+  // `world` must outlive it. `resolution` is the picture's. On all threads; the result does not
+  // depend on their number.
   Cover(const World& world, Point2i resolution, const Settings& settings);
 
   // What each ray sees first of the surfels and of the scene's other shapes, `width` rays to a row.
@@ -41,16 +42,25 @@ class Cover {
   // One surface.
   struct Skin {
     ImplicitSurface surface;
-    Transform toField;
+    Transform toField;  // at the start, as the discs are
     Discs discs;
     std::uint32_t firstBase = 0;
     SurfaceInteraction anywhere;  // on it: for all that is the same everywhere
     bool reversed = false;        // whether its normals point inward
+
+    bool moves() const { return static_cast<bool>(surface.toRenderAt); }
+    Transform toRender(float time) const {
+      return moves() ? surface.toRenderAt(time) : surface.toRender;
+    }
+    // How it has moved since the start.
+    Transform moved(float time) const { return moves() ? toRender(time) * toField : Transform(); }
   };
 
   std::size_t count(double area, Point2i resolution, const Settings& settings) const;
   double pixelsPerArea(Point2i resolution) const;
   void cover(std::uint32_t number, std::span<const Surfel> surfels);
+  static void draw(const Skin& skin, std::span<const Ray> rays, int width, const Beam& beam,
+                   std::span<Fragment> out);
   std::optional<SurfaceInteraction> below(const Surfel& surfel, const Skin& skin) const;
   // A hit of which the world says that it is of an implicit surface.
   bool isImplicit(const Hit& hit) const;

@@ -135,6 +135,42 @@ TEST(SurfaceParticles, AreLitByEveryKindOfLight) {
     expectAlike(light + kBlob + kFloor);
 }
 
+// As rays do, each disc is where its surface is at the time of the ray: a ball that crosses the
+// picture, and a blob that turns in it, with their shadows.
+TEST(SurfaceParticles, MoveWithTheirSurface) {
+  const auto moving = [](const std::string& motion, const std::string& shape) {
+    return "AttributeBegin ActiveTransform EndTime " + motion + " ActiveTransform All " + shape +
+           "AttributeEnd ";
+  };
+  for (const char* shutter : {"\"float shutteropen\" 0 \"float shutterclose\" 1 ",
+                              "\"float shutteropen\" 0.7 \"float shutterclose\" 0.7 "}) {
+    expectAlike(kLamp + moving("Translate 1.2 0.4 0 ", kBall) + kFloor, kCamera + shutter);
+    expectAlike(kLamp + moving("Rotate 90 0 1 0 Scale 0.7 1 1.2 ", kBlob) + kFloor,
+                kCamera + shutter);
+  }
+}
+
+// Where a texture says that there is a hole, no disc lies: of the upper half of a ball there is
+// none, but for the discs along the edge. Whoever looks level sees neither half from within.
+TEST(SurfaceParticles, LeaveHolesOfAlphaOpen) {
+  const std::string camera = "LookAt 0 0.7 -5  0 0.7 0  0 1 0 Camera \"perspective\" ";
+  const std::string lamp = "LightSource \"point\" \"rgb I\" [90 90 90] \"point3 from\" [0 0.7 -5] ";
+  const std::string half =
+      "Texture \"half\" \"float\" \"checkerboard\" \"string mapping\" \"planar\" "
+      "\"vector3 v1\" [0 0.5 0] \"vector3 v2\" [0 0 0] \"float udelta\" 0.65 "
+      "\"float tex1\" 1 \"float tex2\" 0 " +
+      kBall + "\"texture alpha\" \"half\" ";
+  const Image whole = picture(kWhitted, lamp + kBall, camera),
+              rays = picture(kWhitted, lamp + half, camera);
+  EXPECT_NEAR(mean(rays, "R") / mean(whole, "R"), 0.5, 0.02);
+  const Difference d = difference(rays, picture(particles(10000), lamp + half, camera));
+  // A disc is some 0.03 of the ball's radius wide.
+  EXPECT_LT(std::abs(d.mean), 0.05 * mean(rays, "R"));
+  // Nothing of a ball that is a hole altogether.
+  const Image none = picture(particles(1000), lamp + kBall + "\"float alpha\" 0 ", camera);
+  EXPECT_EQ(mean(none, "A"), 0);
+}
+
 TEST(SurfaceParticles, MayThemselvesBeALight) {
   expectAlike(kFloor + "AttributeBegin AreaLightSource \"diffuse\" \"rgb L\" [3 2 1] " + kBall +
                   "AttributeEnd ",
