@@ -79,9 +79,7 @@ void checkApart(const motion::Motion& motion, FrameRange range,
                 const std::optional<FrameFiles>& files, const std::string& stats) {
   namespace fs = std::filesystem;
   std::set<fs::path> taken;
-  if (!motion.file(range.first).empty())
-    for (int n = motion.first(); n <= motion.last(); ++n)
-      taken.insert(fs::weakly_canonical(motion.file(n)));
+  for (const fs::path& file : motion.files()) taken.insert(fs::weakly_canonical(file));
   const auto take = [&](const fs::path& file) {
     if (!taken.insert(fs::weakly_canonical(file)).second)
       throw Error(fmt::format("{} would be written over: choose another name", file.string()),
@@ -137,6 +135,10 @@ int run(const ParticleOptions& o) {
     for (int number = range.first; number <= range.last && !interrupted; ++number) next(number);
     writer.finish();
   } catch (...) {
+    try {
+      writer.finish();
+    } catch (...) {  // one error is told, the first
+    }
     save();
     throw;
   }

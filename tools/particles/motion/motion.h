@@ -29,8 +29,8 @@ class Motion {
   virtual int last() const { return kMostFrames - 1; }
   // Throws Error, Failure::io, if one of these frames is not there.
   virtual void require(int /*first*/, int /*last*/) const {}
-  // The file that a frame comes from; empty: none.
-  virtual std::filesystem::path file(int /*number*/) const { return {}; }
+  // The files that frames come from, if they do.
+  virtual std::vector<std::filesystem::path> files() const { return {}; }
   // Seconds from one frame to the next.
   virtual double dt() const = 0;
   // Holds nearly all of the fluid, at all times: what a camera should see.

@@ -79,7 +79,11 @@ class Sequence final : public Motion {
   int first() const override { return numbers_.front(); }
   int last() const override { return numbers_.back(); }
   void require(int first, int last) const override;
-  fs::path file(int number) const override { return pattern_.file(number); }
+  std::vector<fs::path> files() const override {
+    std::vector<fs::path> all;
+    for (const int number : numbers_) all.push_back(pattern_.file(number));
+    return all;
+  }
   double dt() const override { return 1 / settings_.fps; }
   Bounds3 bounds() const override { return bounds_; }
   void frame(int number, Fluid& out) override;
@@ -185,11 +189,12 @@ void Sequence::require(int first, int last) const {
   for (int number = first; number <= last; ++number, ++place) {
     if (place != numbers_.end() && *place == number) continue;
     std::vector<std::string> nearest;
-    if (place != numbers_.begin()) nearest.push_back(file(*(place - 1)).string());
-    if (place != numbers_.end()) nearest.push_back(file(*place).string());
-    throw Error(fmt::format("{} is missing; nearest to it there {} {}", file(number).string(),
-                            nearest.size() > 1 ? "are" : "is", fmt::join(nearest, " and ")),
-                Failure::io);
+    if (place != numbers_.begin()) nearest.push_back(pattern_.file(*(place - 1)).string());
+    if (place != numbers_.end()) nearest.push_back(pattern_.file(*place).string());
+    throw Error(
+        fmt::format("{} is missing; nearest to it there {} {}", pattern_.file(number).string(),
+                    nearest.size() > 1 ? "are" : "is", fmt::join(nearest, " and ")),
+        Failure::io);
   }
 }
 
