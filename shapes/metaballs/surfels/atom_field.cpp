@@ -68,7 +68,7 @@ void AtomField::set(metaballs::Kernel kernel, std::span<const Atom> atoms,
     for (const std::uint32_t j : level) most = std::max(most, atoms[j].radius);
     levels_[levelCount_++].build(atoms, level, most, hash_);
   }
-  findPlaces();
+  findOne();
 }
 
 void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) const {

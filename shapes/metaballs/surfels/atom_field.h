@@ -46,14 +46,20 @@ class AtomField final : public MovingField {
   template <class Visit>
   void visitCells(std::span<const DPoint3> points, const Visit& visit) const;
 
-  // A place near the surface, and the support radius of an atom about there.
+  // A place near the surface, and the support radius of an atom about there; 0: there is none.
   struct Place {
     DPoint3 p{};
     double h = 0;
   };
+  struct Look {
+    double value = -1;  // f
+    DVec3 gradient{};
+    double density = 0;
+  };
+  Look look(const DPoint3& p) const;  // in floats
   Place propose(std::uint64_t trial, Rng& rng) const;
-  double density(const DPoint3& p) const;
-  void findPlaces();
+  Place find(std::uint64_t& trial, std::uint64_t end) const;
+  void findOne();
   bool settle(DPoint3& p, double h) const;
 
   HashKind hash_;
@@ -70,8 +76,8 @@ class AtomField final : public MovingField {
   std::vector<std::vector<std::uint32_t>> byLevel_;
   // For seeds.
   std::vector<double> byArea_;  // sums, up to each atom, of what it is chosen by
-  std::vector<Place> trials_, places_;
-  std::uint64_t trial_ = 0;  // number of the next one, which goes on from frame to frame
+  Place known_;
+  std::uint64_t trial_ = 0;  // number of the next for known_, which goes on from frame to frame
 };
 
 // Points of one cell are taken together: what touches the cell is looked up once for all of them.

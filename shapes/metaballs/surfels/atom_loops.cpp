@@ -150,6 +150,30 @@ void bend(const AtomRun& run, BendRun& points) {
 }
 
 // Atoms are in the lanes.
+template <class K>
+void probe(const AtomRun& run, const Point3& p, Probe& probe) {
+  Floats value{}, gx{}, gy{}, gz{}, density{};
+  for (std::size_t i = 0; i < run.count; i += kLanes) {
+    const auto load = [&](const float* a) { return *reinterpret_cast<const Floats*>(a + i); };
+    const Floats x = p.x - load(run.x), y = p.y - load(run.y), z = p.z - load(run.z);
+    const Floats inverse2 = load(run.inverse2), q = (x * x + y * y + z * z) * inverse2;
+    const Floats lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    const Floats weight = lane < static_cast<float>(run.count - i) ? load(run.weight) : Floats{};
+    // Those beyond the last may be anything: their products with zero, too.
+    const auto counts = weight != 0 && q < 1;
+    const Floats own = counts ? weight * K::value(q) : Floats{};
+    const Floats k = counts ? 2 * weight * inverse2 * K::slope(q) : Floats{};
+    value += own;
+    density += metaballs::min(metaballs::abs(own), Floats{} + 1);
+    gx += counts ? k * x : Floats{}, gy += counts ? k * y : Floats{};
+    gz += counts ? k * z : Floats{};
+  }
+  const Floats s = metaballs::sums(value, gx, gy, gz, density, Floats{}, Floats{}, Floats{});
+  probe.value += s[0];
+  for (int i = 0; i < 3; ++i) probe.gradient[i] += s[1 + i];
+  probe.density += s[4];
+}
+
 template <class K, bool kMoves>
 void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
                 const DPoint3& p, ExactSums& sums) {
@@ -203,6 +227,9 @@ const AtomLoops kAtomLoops{gather,
                            },
                            [](Kernel kernel, const AtomRun& run, BendRun& points) {
                              withKernel(kernel, [&]<class K>(K) { bend<K>(run, points); });
+                           },
+                           [](Kernel kernel, const AtomRun& run, const Point3& p, Probe& sums) {
+                             withKernel(kernel, [&]<class K>(K) { probe<K>(run, p, sums); });
                            },
                            [](Kernel kernel, std::span<const Atom> atoms, AtomList list,
                               std::span<const Vec3> velocities, const DPoint3& p, ExactSums& sums) {

@@ -65,6 +65,12 @@ struct ExactSums {
   DVec3 weighed{};  // of |w K| v
 };
 
+// At one point of a cell, in its frame.
+struct Probe {
+  float value = 0, gradient[3] = {};
+  float density = 0;  // of min(1, |w K|)
+};
+
 struct AtomLoops {
   // Puts those of the list whose supports touch the cell at the end of the run, until it is full or
   // nearly so. How many of the list were looked at.
@@ -72,6 +78,7 @@ struct AtomLoops {
   // `velocities`: of all atoms, multiplied by `scale`; empty: sums with v are not made.
   void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale, PointRun&);
   void (*bend)(Kernel, const AtomRun&, BendRun&);
+  void (*probe)(Kernel, const AtomRun&, const Point3&, Probe&);
   // Without velocities there are no slopes, either.
   void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
                      const DPoint3&, ExactSums&);
