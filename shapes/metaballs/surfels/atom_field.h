@@ -8,6 +8,8 @@ namespace pbrt::surfels {
 
 class AtomField final : public MovingField {
  public:
+  // The inverted hash is here to be measured: what its looks save, its building costs, for which
+  // the other threads wait, unless each atom is looked up by 30 points and more a frame.
   explicit AtomField(HashKind hash = HashKind::traditional) : hash_(hash) {}
 
   // The atoms of the next frame, anything that metaballs::Field accepts, and the velocity of each,
@@ -116,7 +118,7 @@ void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) 
         order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
     for (std::size_t g = 0; g < count; ++g) {
       const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
-      hash.visit(atoms_, groups[g].key,
+      hash.visit(groups[g].key,
                  [&](const CellFrame& frame, const AtomRun& run) { visit(frame, members, run); });
     }
   }

@@ -12,39 +12,33 @@ using metaballs::AtomLanes, metaballs::bits, metaballs::Doubles, metaballs::squa
     metaballs::withKernel;
 
 // A support touches a cell if the point of the cell that is nearest to its centre is within its
-// radius.
-static std::size_t gather(std::span<const Atom> atoms, AtomList list, const CellFrame& cell,
+// radius. Most about a cell do: so eight are taken where one does.
+static std::size_t gather(const CellAtoms& atoms, std::size_t count, const Vec3& offset, float half,
                           AtomRun& run) {
-  const double half = 0.5 * cell.side + cell.slack, inverseSide = 1 / cell.side;
   std::size_t i = 0, n = run.count;
-  for (; i < list.size() && n + kLanes <= AtomRun::kMost; i += kLanes) {
-    const AtomLanes<Doubles> a(atoms, list, i, cell.centre);
-    const auto beyond = [&](const Doubles& x) {
-      return metaballs::positivePart(metaballs::abs(x) - half) * a.inverse;
+  for (; i < count && n + kLanes <= AtomRun::kMost; i += kLanes) {
+    const auto load = [&](const float* a) {
+      Floats v;
+      __builtin_memcpy(&v, a + i, sizeof(v));
+      return v;
     };
-    const Doubles x = beyond(a.x), y = beyond(a.y), z = beyond(a.z);
-    unsigned mask = bits(x * x + y * y + z * z <= 1 + 0x1p-40);
-    if (list.size() - i < kLanes) mask &= (1U << (list.size() - i)) - 1;
-    if (mask == 0) continue;
-    const auto unit = [&](const Doubles& v) {
-      return __builtin_convertvector(v * inverseSide, Floats);
+    const auto store = [&](const Floats& v, float* a) { __builtin_memcpy(a + n, &v, sizeof(v)); };
+    const auto beyond = [&](const Floats& v) {
+      return metaballs::positivePart(metaballs::abs(v) - half);
     };
-    const Doubles inverse = a.inverse * cell.side;
-    const Floats fx = unit(a.x), fy = unit(a.y), fz = unit(a.z);
-    // Finite also where an atom is as nothing beside its cell.
-    const Floats inverse2 =
-        __builtin_convertvector(metaballs::min(inverse * inverse, Doubles{} + 1e30), Floats);
-    const Floats weight = __builtin_convertvector(a.weight, Floats);
-    for (; mask != 0; mask &= mask - 1, ++n) {
-      const int k = __builtin_ctz(mask);
-      run.x[n] = fx[k], run.y[n] = fy[k], run.z[n] = fz[k];
-      run.inverse2[n] = inverse2[k];
-      run.weight[n] = weight[k];
-      run.number[n] = list[i + static_cast<std::size_t>(k)];
-    }
+    const std::size_t some = std::min<std::size_t>(count - i, kLanes);
+    const Floats x = load(atoms.x) + offset.x, y = load(atoms.y) + offset.y;
+    const Floats z = load(atoms.z) + offset.z, inverse2 = load(atoms.inverse2);
+    const Floats bx = beyond(x), by = beyond(y), bz = beyond(z);
+    const unsigned touch = bits((bx * bx + by * by + bz * bz) * inverse2 < 1);
+    if ((touch & ((1U << some) - 1)) == 0) continue;
+    store(x, run.x), store(y, run.y), store(z, run.z);
+    store(inverse2, run.inverse2), store(load(atoms.weight), run.weight);
+    __builtin_memcpy(run.number + n, atoms.number + i, kLanes * sizeof(*run.number));
+    n += some;
   }
   run.count = n;
-  return std::min(i, list.size());
+  return std::min(i, count);
 }
 
 // The lowest and the highest lane, moved apart by more than the rounding of coordinates.

@@ -44,7 +44,7 @@ AtomField::Look AtomField::look(const DPoint3& p) const {
   if (!isFinite(Vec3(p))) return look;
   for (std::size_t level = 0; level < levelCount_; ++level) {
     const AtomHash& hash = levels_[level];
-    hash.visit(atoms_, hash.cellAt(p), [&](const CellFrame& frame, const AtomRun& run) {
+    hash.visit(hash.cellAt(p), [&](const CellFrame& frame, const AtomRun& run) {
       Probe probe;
       atomLoops().probe(kernel_, run, frame.inward(p), probe);
       const float* g = probe.gradient;
