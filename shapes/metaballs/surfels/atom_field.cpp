@@ -68,7 +68,7 @@ void AtomField::set(metaballs::Kernel kernel, std::span<const Atom> atoms,
     for (const std::uint32_t j : level) most = std::max(most, atoms[j].radius);
     levels_[levelCount_++].build(atoms, level, most, hash_);
   }
-  findPlaces();
+  findOne();
 }
 
 void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) const {
@@ -81,8 +81,9 @@ void AtomField::at(std::span<const DPoint3> points, std::span<FieldAt> out) cons
 // In floats; where their rounding may count, in doubles.
 //
 // Rounding, in units u = 2^-24, of one term w K(q): lengths are in cell sides, a radius is at most
-// 1. The offset of an atom from the cell's centre is at most 1.5 and off by half its last place,
-// that of a point is at most 0.5; with that of their difference, where it counts, each axis of d is
+// 1. The offset of an atom from the centre of its own cell is at most 0.5, from that of the cell in
+// question at most 1.5, that of a point at most 0.5, each off by half its last place; with that of
+// their difference, where it counts, each axis of d is
 // off by less than 3 u and d by less than 6 u, which moves W by 6 u |grad W|. q is off by less than
 // 6 u of itself, which moves W by 6 u |w K'| q = 3 u |grad W| |d|. K is rounded by 2 kRounding u of
 // itself (the gaussian's, of K + exp(-b), where exp(-b) is less than K or than h |grad W| / b), the

@@ -8,6 +8,8 @@ namespace pbrt::surfels {
 
 class AtomField final : public MovingField {
  public:
+  // The inverted hash is here to be measured: what its looks save, its building costs, for which
+  // the other threads wait, unless each atom is looked up by 30 points and more a frame.
   explicit AtomField(HashKind hash = HashKind::traditional) : hash_(hash) {}
 
   // The atoms of the next frame, anything that metaballs::Field accepts, and the velocity of each,
@@ -46,14 +48,20 @@ class AtomField final : public MovingField {
   template <class Visit>
   void visitCells(std::span<const DPoint3> points, const Visit& visit) const;
 
-  // A place near the surface, and the support radius of an atom about there.
+  // A place near the surface, and the support radius of an atom about there; 0: there is none.
   struct Place {
     DPoint3 p{};
     double h = 0;
   };
+  struct Look {
+    double value = -1;  // f
+    DVec3 gradient{};
+    double density = 0;
+  };
+  Look look(const DPoint3& p) const;  // in floats
   Place propose(std::uint64_t trial, Rng& rng) const;
-  double density(const DPoint3& p) const;
-  void findPlaces();
+  Place find(std::uint64_t& trial, std::uint64_t end) const;
+  void findOne();
   bool settle(DPoint3& p, double h) const;
 
   HashKind hash_;
@@ -70,8 +78,8 @@ class AtomField final : public MovingField {
   std::vector<std::vector<std::uint32_t>> byLevel_;
   // For seeds.
   std::vector<double> byArea_;  // sums, up to each atom, of what it is chosen by
-  std::vector<Place> trials_, places_;
-  std::uint64_t trial_ = 0;  // number of the next one, which goes on from frame to frame
+  Place known_;
+  std::uint64_t trial_ = 0;  // number of the next for known_, which goes on from frame to frame
 };
 
 // Points of one cell are taken together: what touches the cell is looked up once for all of them.
@@ -110,7 +118,7 @@ void AtomField::visitCells(std::span<const DPoint3> points, const Visit& visit) 
         order[groups[groupOf[i]].end++] = static_cast<std::uint16_t>(i);
     for (std::size_t g = 0; g < count; ++g) {
       const std::span members(order.data() + groups[g].end - groups[g].count, groups[g].count);
-      hash.visit(atoms_, groups[g].key,
+      hash.visit(groups[g].key,
                  [&](const CellFrame& frame, const AtomRun& run) { visit(frame, members, run); });
     }
   }

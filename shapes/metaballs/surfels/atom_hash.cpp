@@ -56,11 +56,22 @@ void AtomHash::build(std::span<const Atom> atoms, std::span<const std::uint32_t>
       if (lengthSquared(beyond) <= sqr(static_cast<double>(atoms[j].radius))) enter(j, key);
     });
   }
-  numbers_.resize(entries_.size());
+  numbers_.resize(entries_.size() + kLanes);
+  for (std::vector<float>* each : {&x_, &y_, &z_, &inverse2_, &weight_})
+    each->resize(numbers_.size());
   std::uint32_t end = 0;
   for (Cell& cell : cells_) cell.first = end += cell.count;
-  for (std::size_t i = entries_.size(); i-- > 0;)
-    numbers_[--cells_[entries_[i].cell].first] = entries_[i].number;
+  for (std::size_t i = entries_.size(); i-- > 0;) {
+    Cell& cell = cells_[entries_[i].cell];
+    const std::uint32_t at = --cell.first, number = entries_[i].number;
+    const Atom& atom = atoms[number];
+    const Point3 p = frame(cell.key).inward(DPoint3(atom.centre));
+    numbers_[at] = number;
+    x_[at] = p.x, y_[at] = p.y, z_[at] = p.z;
+    // Finite also where an atom is as nothing beside its cell.
+    inverse2_[at] = static_cast<float>(std::min(sqr(side_ / atom.radius), 1e30));
+    weight_[at] = atom.lightWeight;
+  }
 }
 
 }  // namespace pbrt::surfels

@@ -31,7 +31,7 @@ enum class HashKind : std::uint8_t {
   inverted
 };
 
-// It keeps numbers of atoms alone, cell by cell.
+// It keeps atoms cell by cell, as the inner loops want them.
 class AtomHash {
  public:
   // Of the atoms with these numbers, whose radii are at most `largest`: that is a cell's side, too.
@@ -41,15 +41,15 @@ class AtomHash {
 
   // `p` is finite.
   CellKey cellAt(const DPoint3& p) const { return keyAt(p, 1 / side_); }
-  // Calls visit(frame, run) until all atoms whose supports touch the cell were in a run, in an
-  // order that depends on the cell alone.
+  // Calls visit(frame, run) until all atoms whose supports touch the cell were in a run, once each,
+  // and maybe others that are near, in an order that depends on the cell alone.
   template <class Visit>
-  void visit(std::span<const Atom> atoms, const CellKey& key, const Visit& visit) const;
+  void visit(const CellKey& key, const Visit& visit) const;
 
  private:
   struct Cell {
     CellKey key;
-    std::uint32_t first = 0, count = 0;  // in numbers_
+    std::uint32_t first = 0, count = 0;  // of its atoms
   };
 
   static CellKey keyAt(const DPoint3& p, double inverseSide) {
@@ -83,39 +83,35 @@ class AtomHash {
   std::vector<Cell> cells_;           // that are not empty, in the order of their first atoms
   std::vector<std::uint32_t> table_;  // open addressing: index of a cell + 1, or 0
   std::vector<Entry> entries_;
+  // Of the atoms, by their cells, and kLanes more.
   std::vector<std::uint32_t> numbers_;
+  std::vector<float> x_, y_, z_, inverse2_, weight_;
 };
 
 template <class Visit>
-void AtomHash::visit(std::span<const Atom> atoms, const CellKey& key, const Visit& visit) const {
+void AtomHash::visit(const CellKey& key, const Visit& visit) const {
   const CellFrame about = frame(key);
+  const auto half = static_cast<float>(0.50001 + about.slack / about.side);
   const AtomLoops& loops = atomLoops();
   AtomRun run;
-  std::array<std::uint32_t, 512> candidates;
-  std::size_t count = 0;
-  const auto flush = [&] {
-    for (std::size_t i = 0; i < count;) {
-      i += loops.gather(atoms, AtomList(candidates.data() + i, count - i), about, run);
-      if (run.count + kLanes <= AtomRun::kMost) continue;
-      visit(about, run);
-      run.count = 0;
-    }
-    count = 0;
-  };
   const auto look = [&](const CellKey& at) {
     const std::uint32_t found = table_[slotOf(at)];
     if (found == 0) return;
     const Cell& cell = cells_[found - 1];
-    for (std::uint32_t i = cell.first; i < cell.first + cell.count; ++i) {
-      if (count == candidates.size()) flush();
-      candidates[count++] = numbers_[i];
+    const Vec3 offset(static_cast<float>(at.x - key.x), static_cast<float>(at.y - key.y),
+                      static_cast<float>(at.z - key.z));
+    for (std::uint32_t i = cell.first, end = i + cell.count; i < end;) {
+      const CellAtoms atoms{&x_[i], &y_[i], &z_[i], &inverse2_[i], &weight_[i], &numbers_[i]};
+      i += static_cast<std::uint32_t>(loops.gather(atoms, end - i, offset, half, run));
+      if (run.count + kLanes <= AtomRun::kMost) continue;
+      visit(about, run);
+      run.count = 0;
     }
   };
   if (kind_ == HashKind::traditional)
     visitAbout(key, look);
   else
     look(key);
-  flush();
   if (run.count > 0) visit(about, run);
 }
 

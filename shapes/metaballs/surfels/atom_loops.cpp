@@ -12,39 +12,33 @@ using metaballs::AtomLanes, metaballs::bits, metaballs::Doubles, metaballs::squa
     metaballs::withKernel;
 
 // A support touches a cell if the point of the cell that is nearest to its centre is within its
-// radius.
-static std::size_t gather(std::span<const Atom> atoms, AtomList list, const CellFrame& cell,
+// radius. Most about a cell do: so eight are taken where one does.
+static std::size_t gather(const CellAtoms& atoms, std::size_t count, const Vec3& offset, float half,
                           AtomRun& run) {
-  const double half = 0.5 * cell.side + cell.slack, inverseSide = 1 / cell.side;
   std::size_t i = 0, n = run.count;
-  for (; i < list.size() && n + kLanes <= AtomRun::kMost; i += kLanes) {
-    const AtomLanes<Doubles> a(atoms, list, i, cell.centre);
-    const auto beyond = [&](const Doubles& x) {
-      return metaballs::positivePart(metaballs::abs(x) - half) * a.inverse;
+  for (; i < count && n + kLanes <= AtomRun::kMost; i += kLanes) {
+    const auto load = [&](const float* a) {
+      Floats v;
+      __builtin_memcpy(&v, a + i, sizeof(v));
+      return v;
     };
-    const Doubles x = beyond(a.x), y = beyond(a.y), z = beyond(a.z);
-    unsigned mask = bits(x * x + y * y + z * z <= 1 + 0x1p-40);
-    if (list.size() - i < kLanes) mask &= (1U << (list.size() - i)) - 1;
-    if (mask == 0) continue;
-    const auto unit = [&](const Doubles& v) {
-      return __builtin_convertvector(v * inverseSide, Floats);
+    const auto store = [&](const Floats& v, float* a) { __builtin_memcpy(a + n, &v, sizeof(v)); };
+    const auto beyond = [&](const Floats& v) {
+      return metaballs::positivePart(metaballs::abs(v) - half);
     };
-    const Doubles inverse = a.inverse * cell.side;
-    const Floats fx = unit(a.x), fy = unit(a.y), fz = unit(a.z);
-    // Finite also where an atom is as nothing beside its cell.
-    const Floats inverse2 =
-        __builtin_convertvector(metaballs::min(inverse * inverse, Doubles{} + 1e30), Floats);
-    const Floats weight = __builtin_convertvector(a.weight, Floats);
-    for (; mask != 0; mask &= mask - 1, ++n) {
-      const int k = __builtin_ctz(mask);
-      run.x[n] = fx[k], run.y[n] = fy[k], run.z[n] = fz[k];
-      run.inverse2[n] = inverse2[k];
-      run.weight[n] = weight[k];
-      run.number[n] = list[i + static_cast<std::size_t>(k)];
-    }
+    const std::size_t some = std::min<std::size_t>(count - i, kLanes);
+    const Floats x = load(atoms.x) + offset.x, y = load(atoms.y) + offset.y;
+    const Floats z = load(atoms.z) + offset.z, inverse2 = load(atoms.inverse2);
+    const Floats bx = beyond(x), by = beyond(y), bz = beyond(z);
+    const unsigned touch = bits((bx * bx + by * by + bz * bz) * inverse2 < 1);
+    if ((touch & ((1U << some) - 1)) == 0) continue;
+    store(x, run.x), store(y, run.y), store(z, run.z);
+    store(inverse2, run.inverse2), store(load(atoms.weight), run.weight);
+    __builtin_memcpy(run.number + n, atoms.number + i, kLanes * sizeof(*run.number));
+    n += some;
   }
   run.count = n;
-  return std::min(i, list.size());
+  return std::min(i, count);
 }
 
 // The lowest and the highest lane, moved apart by more than the rounding of coordinates.
@@ -150,6 +144,30 @@ void bend(const AtomRun& run, BendRun& points) {
 }
 
 // Atoms are in the lanes.
+template <class K>
+void probe(const AtomRun& run, const Point3& p, Probe& probe) {
+  Floats value{}, gx{}, gy{}, gz{}, density{};
+  for (std::size_t i = 0; i < run.count; i += kLanes) {
+    const auto load = [&](const float* a) { return *reinterpret_cast<const Floats*>(a + i); };
+    const Floats x = p.x - load(run.x), y = p.y - load(run.y), z = p.z - load(run.z);
+    const Floats inverse2 = load(run.inverse2), q = (x * x + y * y + z * z) * inverse2;
+    const Floats lane = {0, 1, 2, 3, 4, 5, 6, 7};
+    const Floats weight = lane < static_cast<float>(run.count - i) ? load(run.weight) : Floats{};
+    // Those beyond the last may be anything: their products with zero, too.
+    const auto counts = weight != 0 && q < 1;
+    const Floats own = counts ? weight * K::value(q) : Floats{};
+    const Floats k = counts ? 2 * weight * inverse2 * K::slope(q) : Floats{};
+    value += own;
+    density += metaballs::min(metaballs::abs(own), Floats{} + 1);
+    gx += counts ? k * x : Floats{}, gy += counts ? k * y : Floats{};
+    gz += counts ? k * z : Floats{};
+  }
+  const Floats s = metaballs::sums(value, gx, gy, gz, density, Floats{}, Floats{}, Floats{});
+  probe.value += s[0];
+  for (int i = 0; i < 3; ++i) probe.gradient[i] += s[1 + i];
+  probe.density += s[4];
+}
+
 template <class K, bool kMoves>
 void addExactly(std::span<const Atom> atoms, AtomList list, std::span<const Vec3> velocities,
                 const DPoint3& p, ExactSums& sums) {
@@ -203,6 +221,9 @@ const AtomLoops kAtomLoops{gather,
                            },
                            [](Kernel kernel, const AtomRun& run, BendRun& points) {
                              withKernel(kernel, [&]<class K>(K) { bend<K>(run, points); });
+                           },
+                           [](Kernel kernel, const AtomRun& run, const Point3& p, Probe& sums) {
+                             withKernel(kernel, [&]<class K>(K) { probe<K>(run, p, sums); });
                            },
                            [](Kernel kernel, std::span<const Atom> atoms, AtomList list,
                               std::span<const Vec3> velocities, const DPoint3& p, ExactSums& sums) {

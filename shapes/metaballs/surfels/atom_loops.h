@@ -20,7 +20,14 @@ struct CellFrame {
   Point3 inward(const DPoint3& p) const { return Point3((p - centre) / side); }
 };
 
-// Some atoms, which touch a cell, in its frame.
+// Atoms of cells, each in the frame of its own. kLanes numbers after the last may be read.
+struct CellAtoms {
+  const float *x = nullptr, *y = nullptr, *z = nullptr;
+  const float *inverse2 = nullptr, *weight = nullptr;  // as in AtomRun
+  const std::uint32_t* number = nullptr;
+};
+
+// Some atoms, which touch a cell or are near it, in its frame.
 struct alignas(metaballs::kLaneAlignment) AtomRun {
   static constexpr std::size_t kMost = 256;
   float x[kMost], y[kMost], z[kMost];
@@ -65,13 +72,22 @@ struct ExactSums {
   DVec3 weighed{};  // of |w K| v
 };
 
+// At one point of a cell, in its frame.
+struct Probe {
+  float value = 0, gradient[3] = {};
+  float density = 0;  // of min(1, |w K|)
+};
+
 struct AtomLoops {
-  // Puts those of the list whose supports touch the cell at the end of the run, until it is full or
-  // nearly so. How many of the list were looked at.
-  std::size_t (*gather)(std::span<const Atom>, AtomList, const CellFrame&, AtomRun&);
+  // Puts the first `count` atoms, those at least whose supports reach within `half` of the centre
+  // of a cell along all axes, at the end of its run, until it is full or nearly so. `offset` is the
+  // centre of their own cell. How many were looked at.
+  std::size_t (*gather)(const CellAtoms&, std::size_t count, const Vec3& offset, float half,
+                        AtomRun&);
   // `velocities`: of all atoms, multiplied by `scale`; empty: sums with v are not made.
   void (*add)(Kernel, const AtomRun&, std::span<const Vec3> velocities, float scale, PointRun&);
   void (*bend)(Kernel, const AtomRun&, BendRun&);
+  void (*probe)(Kernel, const AtomRun&, const Point3&, Probe&);
   // Without velocities there are no slopes, either.
   void (*addExactly)(Kernel, std::span<const Atom>, AtomList, std::span<const Vec3> velocities,
                      const DPoint3&, ExactSums&);

@@ -1,29 +1,29 @@
 // Places on the surface of moving atoms, spread by its area.
 //
-// For each frame some places near the surface are found by trial. An atom is chosen by the area of
-// its support, and a point of the support by the density S_j = min(1, |w_j| K_j): the cut keeps
-// points near the surface of an atom that is far above the threshold. Atoms overlap, so that over
-// all of them the density is D = sum S_j, which is next to 1 where few or many atoms together reach
-// the threshold. A point is kept if it is within a part of h_j of the surface, by the distance |f|
-// / |grad f| of the first order, and then with a probability proportional to 1 / D: such a shell is
-// uniform in volume, and so in area. Seeds are points about those places, moved to the surface.
+// Places near the surface are found by trial. An atom is chosen by the area of its support, and a
+// point of the support by the density S_j = min(1, |w_j| K_j): the cut keeps points near the
+// surface of an atom that is far above the threshold. Atoms overlap, so that over all of them the
+// density is D = sum S_j, which is next to 1 where few or many atoms together reach the threshold.
+// A point is kept if it is within a part of h_j of the surface, by the distance |f| / |grad f| of
+// the first order, and then with a probability proportional to 1 / D: such a shell is uniform in
+// volume, and so in area. A seed is a point about the first place that the trials from its own
+// number on find, moved to the surface: there is nothing to be prepared, and seeds that follow one
+// another share most of their trials.
 
-#include "core/base/parallel.h"
 #include "core/base/warp.h"
 #include "shapes/metaballs/surfels/atom_field.h"
 
 namespace pbrt::surfels {
 namespace {
 
-constexpr std::size_t kRound = 512;  // trials at a time
-constexpr std::size_t kPlaces = 64;  // enough for a frame
-constexpr std::size_t kRounds = 2;   // at most
-constexpr std::size_t kTask = 256;   // of them, for a thread
-constexpr double kShell = 0.25;      // in supports
-constexpr double kClose = 0.02;      // the same: near enough to be on the surface
-constexpr double kAbout = 0.7;       // the same: how far from its place a seed begins
-constexpr double kAccepted = 0.6;    // of the points of the shell, where D is 1
-constexpr int kSteps = 4;            // of Newton
+constexpr std::uint64_t kTrials =
+    256;  // a seed looks at so many at least, at twice as many at most
+constexpr std::uint64_t kFirst = 4096;  // in search of any surface at all
+constexpr double kShell = 0.25;         // in supports
+constexpr double kClose = 0.02;         // the same: near enough to be on the surface
+constexpr double kAbout = 0.7;          // the same: how far from its place a seed begins
+constexpr double kAccepted = 0.6;       // of the points of the shell, where D is 1
+constexpr int kSteps = 4;               // of Newton
 
 // Uniform in [0, 1).
 double uniform(Rng& rng) {
@@ -39,14 +39,31 @@ DVec3 direction(Rng& rng) {
 
 }  // namespace
 
-// A point of some atom's support; its h is 0 if there is none this time.
+AtomField::Look AtomField::look(const DPoint3& p) const {
+  Look look;
+  if (!isFinite(Vec3(p))) return look;
+  for (std::size_t level = 0; level < levelCount_; ++level) {
+    const AtomHash& hash = levels_[level];
+    hash.visit(hash.cellAt(p), [&](const CellFrame& frame, const AtomRun& run) {
+      Probe probe;
+      atomLoops().probe(kernel_, run, frame.inward(p), probe);
+      const float* g = probe.gradient;
+      look.value += probe.value;
+      look.gradient += DVec3(g[0], g[1], g[2]) / frame.side;
+      look.density += probe.density;
+    });
+  }
+  return look;
+}
+
+// A point of some atom's support, if there is one this time.
 AtomField::Place AtomField::propose(std::uint64_t trial, Rng& rng) const {
   // Every fourth takes the atoms in turn, so that none is forgotten, however small its part.
-  const auto chosen = std::ranges::upper_bound(byArea_, uniform(rng) * byArea_.back());
+  const double chosen = uniform(rng) * byArea_.back();
+  const auto byArea =
+      static_cast<std::size_t>(std::ranges::upper_bound(byArea_, chosen) - byArea_.begin());
   const std::size_t j =
-      trial % 4 == 0
-          ? trial / 4 % atoms_.size()
-          : std::min(byArea_.size() - 1, static_cast<std::size_t>(chosen - byArea_.begin()));
+      trial % 4 == 3 ? trial / 4 % atoms_.size() : std::min(byArea, atoms_.size() - 1);
   const Atom& atom = atoms_[j];
   const double h = atom.radius, weight = std::abs(atom.weight), most = std::min(1.0, weight);
   return metaballs::withKernel(kernel_, [&]<class K>(K) -> Place {
@@ -59,25 +76,22 @@ AtomField::Place AtomField::propose(std::uint64_t trial, Rng& rng) const {
   });
 }
 
-// D.
-double AtomField::density(const DPoint3& p) const {
-  double sum = 0;
-  visitCells({&p, 1},
-             [&](const CellFrame& frame, std::span<const std::uint16_t>, const AtomRun& run) {
-               const Point3 at = frame.inward(p);
-               metaballs::withKernel(kernel_, [&]<class K>(K) {
-                 for (std::size_t i = 0; i < run.count; ++i) {
-                   const Vec3 d = at - Point3(run.x[i], run.y[i], run.z[i]);
-                   sum += std::min(
-                       1.F, std::abs(run.weight[i]) * K::value(lengthSquared(d) * run.inverse2[i]));
-                 }
-               });
-             });
-  return sum;
+// What the first of the trials before `end` finds that finds any; `trial` is then the next.
+AtomField::Place AtomField::find(std::uint64_t& trial, std::uint64_t end) const {
+  while (trial < end) {
+    Rng rng(hash(trial));
+    const Place place = propose(trial++, rng);
+    if (place.h == 0) continue;
+    const Look at = look(place.p);
+    if (std::abs(at.value) < kShell * place.h * glm::length(at.gradient) &&
+        uniform(rng) * at.density < kAccepted)
+      return place;
+  }
+  return {};
 }
 
-void AtomField::findPlaces() {
-  places_.clear();
+void AtomField::findOne() {
+  known_ = {};
   byArea_.resize(atoms_.size());
   double sum = 0;
   for (std::size_t i = 0; i < atoms_.size(); ++i) {
@@ -85,61 +99,35 @@ void AtomField::findPlaces() {
     byArea_[i] = sum += std::min(1.0, std::abs(atoms_[i].weight)) * h * h;
   }
   if (bounds_.empty()) return;
-  trials_.resize(kRound);
-  // From the first frame a simulation takes all its surfels.
-  const std::size_t more = trial_ == 0 ? 16 : 1;
-  for (std::size_t round = 0; round < kRounds * more && places_.size() < kPlaces * more; ++round) {
-    parallelFor(kRound / kTask, [&](std::size_t task) {
-      const std::span<Place> trials = std::span(trials_).subspan(task * kTask, kTask);
-      std::array<DPoint3, kTask> points;
-      std::array<ExactSums, kTask> at;
-      std::array<Rng, kTask> rngs;
-      for (std::size_t i = 0; i < kTask; ++i) {
-        const std::uint64_t trial = trial_ + task * kTask + i;
-        rngs[i] = Rng(hash(trial));
-        trials[i] = propose(trial, rngs[i]);
-        points[i] = trials[i].p;
-      }
-      exactly(points, {}, at);
-      for (std::size_t i = 0; i < kTask; ++i)
-        if (!(std::abs(at[i].value - 1) < kShell * trials[i].h * glm::length(at[i].gradient)) ||
-            uniform(rngs[i]) * density(points[i]) >= kAccepted)
-          trials[i].h = 0;
-    });
-    trial_ += kRound;
-    std::ranges::copy_if(trials_, std::back_inserter(places_),
-                         [](const Place& place) { return place.h > 0; });
+  for (const std::uint64_t end = trial_ + kFirst; trial_ < end;) {
+    known_ = find(trial_, end);
+    if (settle(known_.p, known_.h)) return;
   }
+  known_ = {};
 }
 
 // Whether p, moved along the gradient, is on the surface or inside.
 bool AtomField::settle(DPoint3& p, double h) const {
   for (int step = 0;; ++step) {
-    ExactSums sums;
-    exactly({&p, 1}, {}, {&sums, 1});
-    const double f = sums.value - 1, slope = glm::length(sums.gradient);
-    const double distance = std::abs(f) / slope;
+    const Look at = look(p);
+    const double slope = glm::length(at.gradient), distance = std::abs(at.value) / slope;
     if (distance <= kClose * h) return true;
-    if (step == kSteps || !(distance < h)) return f > 0;
-    p -= f / slope * (sums.gradient / slope);
+    if (step == kSteps || !(distance < h)) return at.value > 0;
+    p -= at.value / slope * (at.gradient / slope);
   }
 }
 
 bool AtomField::seeds(std::uint64_t first, std::span<DPoint3> out) const {
-  const std::size_t count = places_.size();
+  if (known_.h == 0) return false;
+  std::uint64_t next = first;  // trial
+  Place place;                 // the last that was found: for all seeds before `next`
   for (std::size_t i = 0; i < out.size(); ++i) {
     const std::uint64_t number = first + i;
-    Rng rng(hash(number));
-    bool found = false;
-    // Numbers that follow one another begin at different places. What goes astray begins anew at
-    // the place itself, then at another.
-    for (std::size_t k = 0; k < std::min<std::size_t>(count, 8) && !found; ++k) {
-      const Place& place = places_[(number + k * (count / 8 + 1)) % count];
-      out[i] = place.p + kAbout * place.h * radiusInBall(rng) * direction(rng);
-      found = settle(out[i], place.h);
-      if (!found) found = settle(out[i] = place.p, place.h);
-    }
-    if (!found) return false;
+    if (place.h == 0 || number == next) place = find(next, (number / kTrials + 2) * kTrials);
+    const Place& about = place.h > 0 ? place : known_;
+    Rng rng(hash(number, 1));
+    out[i] = about.p + kAbout * about.h * radiusInBall(rng) * direction(rng);
+    if (!settle(out[i], about.h) && !settle(out[i] = about.p, about.h)) out[i] = known_.p;
   }
   return true;
 }

@@ -275,16 +275,29 @@ TEST(AtomLoops, AreTheSameOnAllInstructionSets) {
   for (const Kernel kernel : metaballs::test::kAllKernels) {
     const Field atoms = metaballs::test::cloud(100, kernel, 0.2, 1, 3);
     const std::vector<Vec3> velocities = someVelocities(100);
-    std::vector<std::uint32_t> all(100);
-    for (std::uint32_t j = 0; j < all.size(); ++j) all[j] = j;
     for (int i = 0; i < 50; ++i) {
       const CellFrame cell{2.0 * random.cube(), random.in(0.3, 1.3), 1e-6};
+      const Vec3 offset(random.cube());
+      std::vector<float> columns[5];
+      std::vector<std::uint32_t> all;
+      for (const Atom& a : atoms.atoms()) {
+        const Point3 p = cell.inward(DPoint3(a.centre)) - offset;
+        const auto h = static_cast<float>(a.radius / cell.side);
+        int c = 0;
+        for (const float x : {p.x, p.y, p.z, 1 / (h * h), a.lightWeight}) columns[c++].push_back(x);
+        all.push_back(static_cast<std::uint32_t>(all.size()));
+      }
+      for (auto& column : columns) column.resize(100 + kLanes);
+      all.resize(100 + kLanes);
       std::vector<std::uint32_t> numbers;
       std::vector<std::uint64_t> first;
       for (const AtomLoops* loops : allAtomLoops()) {
         AtomRun run;
-        for (std::size_t k = 0; k < all.size();)
-          k += loops->gather(atoms.atoms(), AtomList(all).subspan(k), cell, run);
+        for (std::size_t k = 0; k < 100;) {
+          const CellAtoms some{&columns[0][k], &columns[1][k], &columns[2][k],
+                               &columns[3][k], &columns[4][k], &all[k]};
+          k += loops->gather(some, 100 - k, offset, 0.50001F, run);
+        }
         PointRun points{};
         points.count = 17;
         Random places(static_cast<std::uint64_t>(i));
