@@ -56,11 +56,14 @@ void seeds(benchmark::State& state) {
     c.field.seeds(0, places);
   });
 }
+std::vector<float> crowding(const Cover& c) {
+  return std::vector<float>(c.surfels.size(), 15);
+}
 void neighbours(benchmark::State& state) {
   Neighbours grid;
   measure(state, [&](Cover& c) {
     grid.sort(c.surfels, c.simulation.report().reach);
-    grid.store(c.surfels);
+    grid.store(c.surfels, crowding(c));
   });
 }
 void repulsion(benchmark::State& state) {
@@ -71,7 +74,7 @@ void repulsion(benchmark::State& state) {
       std::vector<Surfel> sorted;
       for (const std::uint32_t i : grid.sort(c.surfels, c.simulation.report().reach))
         sorted.push_back(c.surfels[i]);
-      grid.store(sorted);
+      grid.store(sorted, crowding(c));
       all.resize(sorted.size());
     }
     repel(grid.view(), grid.cells(), all.data());

@@ -1,20 +1,18 @@
 #include "shapes/metaballs/surfels/repulsion.h"
 
-#include <array>
-
 #include "shapes/metaballs/loops.h"
 
 namespace pbrt::metaballs {
 
 inline namespace portable {
-void repel(const surfels::GridView&, std::span<const surfels::Cell>, surfels::Repulsion*);
+surfels::Repel repel;
 }
 #ifdef PBRT_X86
 namespace avx2 {
-void repel(const surfels::GridView&, std::span<const surfels::Cell>, surfels::Repulsion*);
+surfels::Repel repel;
 }
 namespace avx512 {
-void repel(const surfels::GridView&, std::span<const surfels::Cell>, surfels::Repulsion*);
+surfels::Repel repel;
 }
 #endif
 
@@ -22,15 +20,20 @@ void repel(const surfels::GridView&, std::span<const surfels::Cell>, surfels::Re
 
 namespace pbrt::surfels {
 
-void repel(const GridView& grid, std::span<const Cell> cells, Repulsion* out) {
+std::span<Repel* const> allRepels() {
+  static constexpr Repel* all[] = {
+      metaballs::portable::repel,
 #ifdef PBRT_X86
-  static constexpr std::array kAll{metaballs::portable::repel, metaballs::avx2::repel,
-                                   metaballs::avx512::repel};
-  static const auto best = kAll[metaballs::allLoops().size() - 1];
-  best(grid, cells, out);
-#else
-  metaballs::portable::repel(grid, cells, out);
+      metaballs::avx2::repel,
+      metaballs::avx512::repel,
 #endif
+  };
+  return std::span(all).first(metaballs::allLoops().size());
+}
+
+void repel(const GridView& grid, std::span<const Cell> cells, Repulsion* out) {
+  static Repel* const best = allRepels().back();
+  best(grid, cells, out);
 }
 
 }  // namespace pbrt::surfels

@@ -14,6 +14,10 @@ struct Repulsion {
 };
 
 // For the surfels of the given cells; out[i] is that of surfel i.
-void repel(const GridView& grid, std::span<const Cell> cells, Repulsion* out);
+using Repel = void(const GridView& grid, std::span<const Cell> cells, Repulsion* out);
+Repel repel;
+// Those that this machine supports, which give the same bits: the portable one first, the best
+// last.
+std::span<Repel* const> allRepels();
 
 }  // namespace pbrt::surfels

@@ -105,8 +105,7 @@ surfels::Repulsion repelOne(const surfels::GridView& grid, const Surroundings& a
 
 }  // namespace
 
-void repel(const surfels::GridView& grid, std::span<const surfels::Cell> cells,
-           surfels::Repulsion* out);
+surfels::Repel repel;
 void repel(const surfels::GridView& grid, std::span<const surfels::Cell> cells,
            surfels::Repulsion* out) {
   for (const surfels::Cell& cell : cells) {

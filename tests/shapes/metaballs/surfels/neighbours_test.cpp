@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
 #include <set>
 
 #include "shapes/metaballs/surfels/repulsion.h"
@@ -23,11 +24,18 @@ std::vector<Surfel> shell(std::size_t count, const DPoint3& centre, double size)
   return surfels;
 }
 
+// Some numbers to be averaged.
+std::vector<float> crowdings(std::size_t count) {
+  std::vector<float> result;
+  for (std::size_t i = 0; i < count; ++i) result.push_back(static_cast<float>(3 + i * i % 31));
+  return result;
+}
+
 std::vector<Surfel> sorted(Neighbours& neighbours, const std::vector<Surfel>& surfels,
                            double reach) {
   std::vector<Surfel> result;
   for (const std::uint32_t i : neighbours.sort(surfels, reach)) result.push_back(surfels[i]);
-  neighbours.store(result, std::vector<float>(result.size()));
+  neighbours.store(result, crowdings(result.size()));
   return result;
 }
 
@@ -82,27 +90,48 @@ TEST(Repulsion, IsThatOfAllPairs) {
     // Few enough that no heap is cut short.
     const auto surfels = sorted(neighbours, shell(1000, place.centre, place.size), place.reach);
     std::vector<Repulsion> all(surfels.size());
+    const std::vector<float> numbers = crowdings(surfels.size());
     repel(neighbours.view(), neighbours.cells(), all.data());
     for (std::size_t i = 0; i < surfels.size(); i += 3) {
       const Surfel& s = surfels[i];
-      double sigma = 0, near = 0, count = 0;
+      double sigma = 0, near = 0, count = 0, crowding = 0;
       DVec3 force{};
       for (std::size_t j = 0; j < surfels.size(); ++j) {
         const DVec3 d = (s.p - surfels[j].p) / place.reach;
         const double r = glm::length(d);
         if (r >= 1 || glm::dot(DVec3(s.n), DVec3(surfels[j].n)) <= 0) continue;
-        sigma += std::pow(1 - r, 3);
+        sigma += std::pow(1 - r, 3), crowding += (1 - r) * numbers[j];
         if (j == i) continue;
         near += 1 - r, count += r < 0.99999 ? 1 : 0, force += sqr(1 - r) / r * d;
       }
       const DVec3 n(s.n);
       const DVec3 push = near > 1e-3 ? (force - glm::dot(force, n) * n) / (2 * near) : DVec3(0);
       EXPECT_NEAR(all[i].density, sigma, 2e-4 * sigma);
+      EXPECT_NEAR(all[i].crowding, crowding / (1 + near), 1e-3 * crowding);
       EXPECT_NEAR(all[i].neighbours, count, 1.01);
       if (near > 1e-3 || near == 0) {
         EXPECT_LT(glm::length(DVec3(all[i].push[0], all[i].push[1], all[i].push[2]) - push), 2e-3);
       }
     }
+  }
+}
+
+TEST(Repulsion, AllInstructionSetsGiveTheSameBits) {
+  Neighbours neighbours;
+  for (const Place& place : kPlaces) {
+    const auto surfels = sorted(neighbours, shell(2000, place.centre, place.size), place.reach);
+    const auto bits = [&](Repel& repel) {
+      std::vector<Repulsion> all(surfels.size());
+      repel(neighbours.view(), neighbours.cells(), all.data());
+      std::vector<std::uint32_t> result;
+      for (const Repulsion& r : all)
+        for (const float x : {r.push[0], r.push[1], r.push[2], r.density, r.neighbours, r.crowding})
+          result.push_back(std::bit_cast<std::uint32_t>(x));
+      return result;
+    };
+    const auto portable = bits(*allRepels().front());
+    for (std::size_t i = 1; i < allRepels().size(); ++i)
+      EXPECT_EQ(bits(*allRepels()[i]), portable) << "instruction set " << i;
   }
 }
 
