@@ -4,6 +4,7 @@
 
 #include "core/base/parallel.h"
 #include "core/base/sphere_map.h"
+#include "integrators/surfaceparticles/likeness.h"
 #include "shapes/metaballs/surfels/simulation.h"
 
 namespace pbrt::surfels {
@@ -40,28 +41,54 @@ Cover::Cover(const World& world, Point2i resolution, const Settings& settings) :
   alone_ = all.alone;
   std::ranges::sort(all.surfaces, {},
                     [](const ImplicitSurface& s) { return place(s.instance, s.geometry); });
-  // Many surfaces share the boxes by which they are known.
-  const std::size_t cells = std::clamp<std::size_t>(kCells / (all.surfaces.size() + 1), 64, 4096);
-  std::vector<std::unique_ptr<StillField>> fields;
-  double area = 0;
+  std::vector<Likeness> likenesses;
   for (const ImplicitSurface& surface : all.surfaces) {
     skins_.push_back({surface, surface.toRender.inverse()});
-    fields.push_back(std::make_unique<StillField>(*surface.field, surface.toRender, cells));
-    area += fields.back()->area();
+    likenesses.emplace_back(surface);
+  }
+  // Those that are alike share the field of the first, and those of them that get equally many
+  // surfels share these. Many fields share the boxes by which they are known.
+  const Groups forms(likenesses);
+  const std::size_t cells = std::clamp<std::size_t>(kCells / (forms.firsts.size() + 1), 64, 4096);
+  std::vector<std::optional<StillField>> fields(forms.firsts.size());
+  parallelFor(fields.size(), [&](std::size_t k) {
+    const ImplicitSurface& surface = skins_[forms.firsts[k]].surface;
+    fields[k].emplace(*surface.field, surface.toRender, cells);
+  });
+  std::vector<double> scales, areas;
+  double area = 0;
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    const Skin& first = skins_[forms.firsts[forms.of[i]]];
+    scales.push_back(scaleBetween(first.surface.toRender, skins_[i].surface.toRender));
+    areas.push_back(sqr(scales[i]) * fields[forms.of[i]]->area());
+    area += areas[i];
   }
   if (!(area > 0)) return;
   const auto perArea = static_cast<double>(count(area, resolution, settings)) / area;
-  std::vector<std::vector<Surfel>> surfels(skins_.size());
-  parallelFor(skins_.size(), [&](std::size_t i) {
-    const StillField& field = *fields[i];
-    if (!(field.area() > 0)) return;
-    const auto n = static_cast<std::size_t>(perArea * field.area() + 0.5);
-    Simulation simulation({std::max(n, kLeast), i});
+  std::vector<std::pair<std::size_t, std::size_t>> sizes;  // form, number of surfels
+  for (std::size_t i = 0; i < skins_.size(); ++i) {
+    const auto n = static_cast<std::size_t>(perArea * areas[i] + 0.5);
+    sizes.emplace_back(forms.of[i], areas[i] > 0 ? std::max(n, kLeast) : 0);
+  }
+  const Groups sheets(sizes);
+  std::vector<std::vector<Surfel>> surfels(sheets.firsts.size());
+  parallelFor(surfels.size(), [&](std::size_t k) {
+    const auto [form, n] = sizes[sheets.firsts[k]];
+    if (n == 0) return;
+    const StillField& field = *fields[form];
+    Simulation simulation({n, k});
     for (int step = 0; step < settings.steps; ++step) simulation.step(field, 0);
     for (const Surfel& surfel : simulation.surfels())
-      if (field.holds(surfel.p)) surfels[i].push_back(surfel);
+      if (field.holds(surfel.p)) surfels[k].push_back(surfel);
   });
-  for (std::uint32_t i = 0; i < skins_.size(); ++i) cover(i, surfels[i]);
+  for (std::uint32_t i = 0; i < skins_.size(); ++i) {
+    const Skin& first = skins_[forms.firsts[forms.of[i]]];
+    const Transform map = skins_[i].surface.toRender * first.toField;
+    std::vector<Surfel> own;
+    for (const Surfel& surfel : surfels[sheets.of[i]])
+      own.push_back(placed(surfel, map, scales[i]));
+    cover(i, own);
+  }
 }
 
 // By quality: neighbours are to be 3 / quality pixels apart.

@@ -102,6 +102,40 @@ TEST(SurfaceParticles, InstancesMayBeStretchedAndMirrored) {
               "ObjectInstance \"blob\" AttributeEnd ");
 }
 
+TEST(SurfaceParticles, InstancesMayBeTurnedMirroredAndScaled) {
+  const auto at = [](const char* where) {
+    return "AttributeBegin " + std::string(where) + " ObjectInstance \"blob\" AttributeEnd ";
+  };
+  expectAlike(kLamp + kFloor + "ObjectBegin \"blob\" " + kBlob + "ObjectEnd " +
+                  at("Translate -1 0 0 Rotate 70 0.2 1 0.1 Scale 0.9 0.9 0.9") +
+                  at("Translate 0.4 0 0.5 Scale -1 1 1") +
+                  at("Translate 1.2 0 -1 Rotate 200 0 1 0 Scale 0.5 -0.5 0.5 Translate 0 -1.5 0"),
+              kCamera, 0.01);
+}
+
+// Copies share their particles: each looks as the next.
+TEST(SurfaceParticles, CopiesAreAlike) {
+  const std::string world =
+      "LightSource \"distant\" \"point3 from\" [1 2 -3] \"point3 to\" [0 0 0] ObjectBegin "
+      "\"blob\" " +
+      kBlob + "ObjectEnd AttributeBegin Translate -2 0 0 ObjectInstance \"blob\" AttributeEnd " +
+      "AttributeBegin Translate 2 0 0 ObjectInstance \"blob\" AttributeEnd ";
+  const Image both =
+      picture(particles(200), world,
+              "LookAt 0 0.7 -5  0 0.7 0  0 1 0 Camera \"orthographic\" \"float screenwindow\" [-4 "
+              "4 -2 2] Sampler \"stratified\" \"bool jitter\" \"false\" ",
+              "Film \"image\" \"integer xresolution\" 128 \"integer yresolution\" 64 ");
+  const auto& red = *both.channel("R");
+  double off = 0, level = 0;
+  for (std::size_t y = 0; y < 64; ++y)
+    for (std::size_t x = 0; x < 64; ++x) {
+      off += std::abs(double{red[128 * y + x]} - red[128 * y + x + 64]);
+      level += red[128 * y + x];
+    }
+  EXPECT_GT(level, 10);
+  EXPECT_LT(off, 1e-3 * level);
+}
+
 // Where two surfaces cross each keeps its own colour.
 TEST(SurfaceParticles, KeepTheColourOfTheirSurface) {
   expectAlike(kLamp +
