@@ -126,7 +126,7 @@ class Nonsense final : public MovingField {
   Bounds3 bounds() const override { return {Point3(-1), Point3(1)}; }
   double grain() const override { return 1; }
   void at(std::span<const DPoint3> points, std::span<FieldAt> out) const override {
-    std::fill_n(out.begin(), points.size(), FieldAt{value_, DVec3(slope_), value_, DVec3(slope_)});
+    std::fill_n(out.begin(), points.size(), FieldAt{value_, DVec3(slope_), DVec3(slope_)});
   }
   void shape(std::span<const DPoint3> points, std::span<ShapeAt> out) const override {
     std::fill_n(out.begin(), points.size(), ShapeAt{DVec3(slope_), glm::dmat3(value_)});
