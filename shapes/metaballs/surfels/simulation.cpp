@@ -124,21 +124,23 @@ void Simulation::State::carry(const MovingField& field, double dt) {
       for (std::size_t k = 0; k < n; ++k) landings_[which[k]] = landings[k];
     };
     const auto ownWay = [&](std::size_t i) { return carried(bounds, dt, i); };
+    std::array<std::size_t, kChunk> partners;
     for (std::size_t i = begin; i < end; ++i) {
-      const std::size_t to = partner(i);
+      const std::size_t to = partners[i - begin] = partner(i);
       landings_[i] = to == i ? ownWay(i) : beside(to, ownWay(to));
     }
     land(field, {&landings_[begin], end - begin});
     std::size_t jumped = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const DVec3 lag = 0.5 * dt * (landings_[i].flow - motions_[i].flow);
-      const bool counts = landings_[i].there && partner(i) == i && glm::length(lag) < longest;
+      const bool counts =
+          landings_[i].there && partners[i - begin] == i && glm::length(lag) < longest;
       lags_[i] = counts ? lag : DVec3(0);
     }
     // A jump to another sheet is none.
     again(
         [&](std::size_t i) {
-          const std::size_t to = partner(i);
+          const std::size_t to = partners[i - begin];
           if (to == i) return true;
           const bool there =
               landings_[i].there && glm::dot(landings_[i].gradient, DVec3(surfels_[to].n)) < 0;
@@ -187,9 +189,10 @@ void Simulation::State::push(double extent) {
     for (std::size_t i = cells[begin].first; i < cells[end - 1].first + cells[end - 1].count; ++i) {
       const Repulsion& r = repulsions_[i];
       std::copy_n(r.push, 3, motions_[i].push);
-      float& crowding = motions_[i].crowding;
+      float& crowding = crowding_[i];
       const float count = r.neighbours + 1;
       crowding = crowding > 0 ? r.crowding + own * (count - r.crowding) : count;
+      motions_[i].crowding = crowding;
       surfels_[i].density = r.density;
       surfels_[i].radius = static_cast<float>(report_.reach) * cover(r);
       sum.density += r.density, sum.squares += sqr(static_cast<double>(r.density));

@@ -39,7 +39,7 @@ DVec3 across(const Normal3& n, float part) {
 std::size_t Simulation::State::partner(std::size_t i) const {
   const std::uint64_t random = hash(settings_.seed, steps_, i);
   const std::size_t other = (random >> 32U) * surfels_.size() >> 32U;
-  const float less = 1 - motions_[other].crowding / motions_[i].crowding;
+  const float less = 1 - crowding_[other] / crowding_[i];
   return uniformFloat(static_cast<std::uint32_t>(random)) < less - kByChance ? other : i;
 }
 

@@ -52,7 +52,7 @@ class Simulation::State {
   std::vector<Motion> motions_, motionsBefore_;
   std::vector<Landing> landings_;
   std::vector<DVec3> lags_;
-  std::vector<float> crowding_;
+  std::vector<float> crowding_;  // that of each surfel after the last step
   std::vector<Repulsion> repulsions_;
   std::vector<std::uint32_t> lost_;  // surfels that are not on the surface
   Neighbours neighbours_;
