@@ -74,19 +74,21 @@ void printSum(const std::deque<FrameFigures>& frames, double seconds) {
       sum.motion / n, sum.write / n);
 }
 
-// Nothing is written over what is read, or twice to one place.
+// Nothing is written over what is read, nor the figures over a frame.
 void checkApart(const motion::Motion& motion, FrameRange range,
                 const std::optional<FrameFiles>& files, const std::string& stats) {
   namespace fs = std::filesystem;
   std::set<fs::path> taken;
   for (const fs::path& file : motion.files()) taken.insert(fs::weakly_canonical(file));
-  const auto take = [&](const fs::path& file) {
-    if (!taken.insert(fs::weakly_canonical(file)).second)
+  const auto check = [&](const fs::path& file) {
+    if (taken.contains(fs::weakly_canonical(file)))
       throw Error(fmt::format("{} would be written over: choose another name", file.string()),
                   Failure::usage);
   };
-  if (!stats.empty()) take(stats);
-  for (int n = range.first; files && n <= range.last; ++n) take(files->file(n));
+  if (!stats.empty()) check(stats);
+  if (files && fs::path(stats).extension() == files->file(range.first).extension())
+    throw Error(fmt::format("--stats {}: frames have names like this one", stats), Failure::usage);
+  for (int n = range.first; files && !taken.empty() && n <= range.last; ++n) check(files->file(n));
 }
 
 int run(const ParticleOptions& o) {

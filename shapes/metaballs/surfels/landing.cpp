@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t kBatch = 256;
 
-// Looks at the field along a path that has not yet met both sides of the surface, and in all: a
-// bisection of a step halves it to the last bit of a double in 53.
+// Looks at the field along a path that has not yet met both sides of the surface, and gets no
+// nearer; and in all: a bisection of a step halves it to the last bit of a double in 53.
 constexpr int kWandering = 12, kLooks = 80;
 
 bool isFinite(const DVec3& v) {
@@ -40,7 +40,7 @@ bool goOn(int look, double stride, const FieldAt& at, Path& path, Landing& l) {
   path.last = distance;
   if (path.bracketed() && (slow || !(slope > 0))) {
     l.p = 0.5 * path.inside + 0.5 * path.outside;
-  } else if (!(slope > 0) || (look >= kWandering && !path.bracketed())) {
+  } else if (!(slope > 0) || (look >= kWandering && slow && !path.bracketed())) {
     return false;
   } else {
     l.p -= std::clamp(at.value / slope, -stride, stride) * (at.gradient / slope);
