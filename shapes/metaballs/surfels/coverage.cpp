@@ -1,14 +1,13 @@
 #include "shapes/metaballs/surfels/coverage.h"
 
 #include "core/base/parallel.h"
+#include "shapes/metaballs/surfels/landing.h"
 
 namespace pbrt::surfels {
 namespace {
 
 constexpr std::size_t kRun = 32;     // surfels that share a box
 constexpr std::size_t kChunk = 128;  // places a task looks at
-constexpr int kLooks = 64;
-constexpr double kResidual = 1e-4;
 
 // Surfels that follow one another, and the box that holds their centres.
 struct Run {
@@ -46,30 +45,15 @@ std::pair<bool, bool> look(std::span<const Run> runs, const Place& place, double
 
 }  // namespace
 
-// Newton's method along the gradient, with steps of at most half a grain: the field is smooth
-// within one.
 std::vector<Place> places(const MovingField& field, std::uint64_t first, std::size_t count) {
-  std::vector<DPoint3> points(count);
+  std::vector<DPoint3> seeds(count);
   std::vector<Place> found;
-  if (!field.seeds(first, points)) return found;
-  std::vector<FieldAt> at;
-  const double longest = 0.5 * field.grain();
-  for (int look = 0; look < kLooks && !points.empty(); ++look) {
-    at.resize(points.size());
-    field.at(points, at);
-    std::size_t rest = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const auto& [value, gradient, flow] = at[i];
-      const double slope = glm::length(gradient);
-      if (!(slope > 0)) continue;
-      const DVec3 n = -gradient / slope;
-      if (std::abs(value) < kResidual)
-        found.push_back({points[i], Normal3(n)});
-      else
-        points[rest++] = points[i] + std::clamp(value / slope, -longest, longest) * n;
-    }
-    points.resize(rest);
-  }
+  if (!field.seeds(first, seeds)) return found;
+  std::vector<Landing> landings(count);
+  for (std::size_t i = 0; i < count; ++i) landings[i].p = seeds[i];
+  land(field, landings);
+  for (const Landing& l : landings)
+    if (l.there) found.push_back({l.p, Normal3(-glm::normalize(l.gradient))});
   return found;
 }
 
