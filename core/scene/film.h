@@ -13,6 +13,11 @@
 
 namespace pbrt {
 
+// All that a film holds of one pixel: sums over samples, which add up in any order to the same
+// bits (ExactSum). Made and taken row by row, for files and merging; the film's own cells hold only
+// what it stores.
+struct FilmPixel;
+
 // The picture's samples are taken tile by tile. A sample is spread by the filter over the pixels
 // about it, which may lie in the next tile; each tile therefore owns its sums over its own pixels
 // and a border as wide as the filter, and one thread at a time works on it. image() adds the

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <vector>
 
 #include "core/api/integrator.h"
 #include "core/scene/film.h"
@@ -17,7 +18,11 @@ struct RenderControl {
   // How many samples share a pixel once it is whole: textures are filtered the finer, the more.
   std::uint32_t samplesPerPixel = 0;  // 0: those of the sampler
 
-  std::atomic<bool> stop{false};  // ends the render after the tiles in progress
+  // One past the last sample that each tile has so far; the render keeps it. A render that was
+  // stopped goes on from there, with this or another control. Empty: no tile has any.
+  std::vector<std::uint32_t> reached;
+
+  std::atomic<bool> stop{false};  // ends the render after the samples in progress, of a tile each
   std::atomic<int> tilesDone{0};
   std::atomic<std::uint64_t> rays{0};
   std::atomic<std::uint64_t> badSamples{0};  // not a number or infinite; counted as black
