@@ -25,6 +25,12 @@ void readRange(const std::string& text, Goal& goal) {
       Failure::usage);
 }
 
+const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
+                                                              {"bar", ProgressStyle::bar},
+                                                              {"lines", ProgressStyle::lines},
+                                                              {"json", ProgressStyle::json},
+                                                              {"none", ProgressStyle::none}};
+
 // A duration in seconds: 30, 30s, 1.5m, 2h, 500ms.
 CLI::Validator seconds() {
   return CLI::AsNumberWithUnit(
@@ -65,7 +71,9 @@ void defineOptions(CLI::App& app, Options& o) {
       ->allow_extra_args(false)
       ->check(CLI::IsMember(std::vector<std::string>(aovNames().begin(), aovNames().end())));
   app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");
-  app.add_option("--nthreads", o.build.threads, "Number of threads (default: all cores)")
+  app.add_option("--nthreads", o.build.threads,
+                 "Exactly so many threads work, above the number of cores, too (default: the cores "
+                 "that affinity and the container leave to pbrt)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--width", o.build.width, "Width in pixels; the height follows")
       ->check(CLI::Range(1, 1 << 16));
@@ -78,7 +86,15 @@ void defineOptions(CLI::App& app, Options& o) {
       ->expected(4)
       ->allow_extra_args(false);
   app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
-  app.add_flag("--quiet", o.quiet, "Say nothing but errors, and what --stats tells");
+  app.add_flag("--quiet", o.quiet,
+               "Say nothing but errors, and what --stats and --progress are asked to tell");
+  app.add_option_function<std::string>(
+         "--progress",
+         [&o](const std::string& name) { o.progress = kProgressStyles.find(name)->second; },
+         "How to tell how far the render is: bar (on a terminal; elsewhere a line now and then), "
+         "lines (messages of Open Job Description on standard output), json (there, an object a "
+         "line), none; auto: bar, or none with --quiet")
+      ->check(CLI::IsMember(&kProgressStyles));
   auto* stats = app.add_flag("--stats", o.stats,
                              "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
@@ -127,6 +143,10 @@ std::vector<std::string> words(int argc, char** argv) {
 }
 
 void finishOptions(Options& o) {
+  if (o.progress == ProgressStyle::automatic)
+    o.progress = o.quiet ? ProgressStyle::none : ProgressStyle::bar;
+  if (o.stats && o.progress == ProgressStyle::json)
+    throw Error("--stats would come between the objects of --progress=json", Failure::usage);
   if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
   if (!o.describe.empty() && (o.describe.size() == 1) != (o.describe[0] == "all"))
     throw Error("--describe takes KIND NAME, or all", Failure::usage);

@@ -5,6 +5,7 @@
 
 #include "core/scene/builder.h"
 #include "passes.h"
+#include "progress_state.h"
 #include "reports.h"
 
 namespace pbrt {
@@ -22,6 +23,7 @@ struct Options {
   AovSet aovSet = 0;
   Goal goal;  // see goalOf()
   bool quiet = false;
+  ProgressStyle progress = ProgressStyle::automatic;  // finishOptions() decides
   bool stats = false;
   std::string logLevel = "warning";
   bool check = false;

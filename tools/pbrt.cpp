@@ -46,20 +46,27 @@ void writePictures(const Options& o, Scene& scene, const Goal& goal, std::uint32
 // Renders until the goal is reached. Returns the samples that each pixel then has.
 std::uint32_t renderPasses(const Options& o, Scene& scene, const Goal& goal, RenderControl& control,
                            const std::vector<std::string>& outputs) {
-  std::optional<Progress> progress;
-  if (!o.quiet) progress.emplace(control, scene.film().tiles());
+  const Bounds2i& pixels = scene.film().sampledPixels();
+  Progress progress(o.progress, control, pixels.width() * pixels.height());
   const double start = now();
   double looked = start;
   std::optional<double> error;
   Passes passes(goal);
   while (true) {
     const Passes::Pass pass = passes.next(now() - start, now() - looked, error);
-    if (pass.empty()) return passes.taken();
-    if (progress) progress->begin(pass.from, pass.to, error);
+    if (pass.empty()) {
+      progress.end(Stage::done);
+      return passes.taken();
+    }
+    progress.begin(pass);
     control.firstSample = pass.first;
     control.endSample = pass.end;
     scene.integrator().render(scene, scene.sampler(), scene.film(), control);
-    if (goal.error) error = estimatedError(scene.film().image(kVariance));
+    progress.rest();
+    if (goal.error) {
+      error = estimatedError(scene.film().image(kVariance));
+      progress.error(*error);
+    }
     if (goal.interval && now() - looked >= *goal.interval) {
       writePictures(o, scene, goal, passes.taken(), now() - start, outputs);
       looked = now();
@@ -138,7 +145,7 @@ int render(const Options& o, PluginLoader& loader) {
   writePictures(o, *scene, goal, samples, t.rendered - t.ready, outputs);
   t.written = now();
   if (!o.quiet)
-    for (const std::string& output : outputs) fmt::print("{}\n", output);
+    for (const std::string& output : outputs) fmt::print("{}", pictureLine(o.progress, output));
   if (o.stats) fmt::print("{}", stats(std::move(scene), loader, control, samples, t));
   return judge(o);
 }
@@ -167,7 +174,12 @@ int main(int argc, char** argv) {
   CLI::App app("pbrt renders scenes described in the pbrt format.", "pbrt");
   pbrt::defineOptions(app, options);
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
-    pbrt::finishOptions(options);
-    return pbrt::run(options);
+    try {
+      pbrt::finishOptions(options);
+      return pbrt::run(options);
+    } catch (const std::exception& error) {
+      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
+      throw;
+    }
   });
 }

@@ -52,11 +52,13 @@ struct TileJob {
     const Bounds2i pixels = film.tilePixels(tile);
     // Sample by sample, not pixel by pixel: the sums grow in the same order when the samples come
     // in several passes.
-    for (std::uint32_t s = control.firstSample; s < control.endSample; ++s)
+    for (std::uint32_t s = control.firstSample; s < control.endSample; ++s) {
       for (int y = pixels.lo.y; y < pixels.hi.y; y += blockWidth)
         for (int x = pixels.lo.x; x < pixels.hi.x; x += blockWidth)
           renderBlock(tile, intersect(pixels, {{x, y}, {x + blockWidth, y + blockWidth}}), s,
                       worker);
+      control.samplesDone += static_cast<std::uint64_t>(pixels.width() * pixels.height());
+    }
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {

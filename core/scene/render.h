@@ -24,6 +24,7 @@ struct RenderControl {
 
   std::atomic<bool> stop{false};  // ends the render after the samples in progress, of a tile each
   std::atomic<int> tilesDone{0};
+  std::atomic<std::uint64_t> samplesDone{0};  // camera samples, over all pixels
   std::atomic<std::uint64_t> rays{0};
   std::atomic<std::uint64_t> badSamples{0};  // not a number or infinite; counted as black
 };
