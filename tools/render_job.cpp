@@ -96,56 +96,67 @@ void RenderJob::resume() {
 }
 
 bool RenderJob::run() {
-  std::optional<Progress> progress;
-  if (!o_.quiet) progress.emplace(control_, scene_.film().tiles());
-  scheduleCheckpoint();
+  const Bounds2i& pixels = scene_.film().sampledPixels();
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height());
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
     std::optional<double> error;
-    if (goal_.error && samples() > 0 && least() == most())
+    if (goal_.error && samples() > 0 && least() == most()) {
       error = estimatedError(scene_.film().image(kVariance));
+      progress.error(*error);
+    }
     const Passes::Pass pass = passes.next(seconds(), now() - looked, error);
-    if (pass.empty()) return true;
-    if (progress) progress->begin(pass.from, pass.to, error);
-    passEnd_ = pass.end;
-    if (!renderPass(pass.end)) return false;
+    if (pass.empty()) break;
+    if (!renderPass(pass, progress)) {
+      progress.end(Stage::interrupted);
+      return false;
+    }
     if (goal_.interval && now() - looked >= *goal_.interval) {
       writeSoFar();
       looked = now();
     }
   }
+  progress.end(Stage::done);
+  return true;
 }
 
 // Returns false if a signal asks the render to end before the pass does.
-bool RenderJob::renderPass(std::uint32_t end) {
+bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
   control_.firstSample = goal_.firstSample;
-  control_.endSample = end;
-  while (least() < end) {
+  control_.endSample = passEnd_ = pass.end;
+  while (least() < pass.end) {
     control_.stop = false;  // before its reasons are looked for: those that come later set it again
     if (Signals::interrupted()) return false;
     const bool asked = Signals::takeRequest();
     if (!o_.checkpoint.empty() && (asked || now() >= due_))
-      attempt([&] { saveCheckpoint(); });
+      tryTo([&] { saveCheckpoint(); });
     else if (asked)
       writeSoFar();
     signals_.setTimer(due_ - now());
+    progress.begin(pass, samplesSince(pass.first));
     scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    progress.rest();
   }
   return true;
 }
 
 void RenderJob::finish() {
   signals_.setTimer(kNever);
-  const bool saves = !o_.checkpoint.empty();
-  if (saves) saveCheckpoint();
+  if (o_.checkpoint.empty()) return writeOutputs();
+  saveCheckpoint();
   try {
     writeOutputs();
   } catch (const Error& error) {
-    if (!saves) throw;
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     diagnostics.push_back(
-        {Severity::note, fmt::format("its samples are in {}: --resume writes it", o_.checkpoint)});
+        {Severity::note, fmt::format("its samples are in {}: go on with --resume", o_.checkpoint)});
     throw Error(std::move(diagnostics), error.failure());
   }
 }
+
+void RenderJob::saveCheckpoint() {
+  due_ = kNever;
+  writeFilm(o_.checkpoint, scene_.film(), info());
+}
+

@@ -8,17 +8,17 @@
 #include "core/scene/render.h"
 #include "core/scene/scene.h"
 #include "options.h"
+#include "progress.h"
 #include "signals.h"
 
 namespace pbrt {
 
-// Throws Error unless all files of this name can be written that a render writes in the end, and
-// its checkpoint: ask before long work. A checkpoint that is there is only ever continued, never
-// written over by another render.
-void checkOutputs(const Options& o, const std::vector<std::string>& outputs);
+// These throw Error, Failure::io, unless files of these names can be written: ask before long work.
+// A checkpoint that is there may only be gone on from: no other render writes over it.
+void checkOutputs(const std::vector<std::string>& outputs);
 void checkCheckpoint(const Options& o);
 
-// Whether a render of these options writes film files, and must hence know its key.
+// Whether a render with these options writes film files, which hold its key.
 bool writesFilms(const Options& o);
 
 class RenderJob {
@@ -36,20 +36,18 @@ class RenderJob {
   // written the others are. Throws Error.
   void finish();
 
-  // How many samples the pixels have, of how many: "12 to 64 of 64 samples per pixel".
-  std::string progress() const;
+  // Says where it ended before its goal was reached, and how to go on.
+  std::string interruption() const;
   // That each pixel has at least.
   std::uint32_t samples() const { return least() - goal_.firstSample; }
 
  private:
-  bool renderPass(std::uint32_t end);
-  void writeOutputs() const;
-  void writeSoFar();
+  bool renderPass(const Passes::Pass& pass, Progress& progress);
   void saveCheckpoint();
-  // For what is tried again later: errors become warnings.
-  template <class Write>
-  void attempt(Write write) const;
+  void writeOutputs() const;
+  void writeSoFar() const;
   FilmInfo info() const;
+  std::uint64_t samplesSince(std::uint32_t first) const;  // of all pixels together
   std::uint32_t least() const;  // one past the last sample that all tiles have, and
   std::uint32_t most() const;   // that any has
   double seconds() const;       // of rendering, all runs together
@@ -61,9 +59,9 @@ class RenderJob {
   std::vector<std::string> outputs_;
   RenderControl& control_;
   Signals& signals_;
-  double start_;              // as now() has it; earlier by what earlier runs took
-  double due_;                // when the next checkpoint is
-  std::uint32_t passEnd_ = 0;
+  double start_;               // as now() has it, earlier by what earlier runs took
+  double due_;                 // when the next checkpoint is
+  std::uint32_t passEnd_ = 0;  // of the pass in progress
 };
 
 }  // namespace pbrt
