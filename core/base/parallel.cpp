@@ -4,7 +4,13 @@
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <fstream>
+#include <limits>
+
+#include "core/base/control_groups.h"
 
 namespace pbrt {
 
@@ -22,14 +28,32 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
   static_cast<void>(ended.load(std::memory_order_acquire));
 }
 
-int defaultThreads() {
-  return tbb::info::default_concurrency();
+int controlGroupCores(const std::filesystem::path& root) {
+  int least = std::numeric_limits<int>::max();
+  const auto allow = [&](double quota, double period) {
+    const double cores = std::ceil(quota / period);  // a quarter of a core needs a thread, too
+    if (cores >= 1 && cores < least) least = static_cast<int>(cores);
+  };
+  for (const std::filesystem::path& group : controlGroups("cpu", root)) {
+    // Microseconds in each period. Without a limit there is a word in place of the first number in
+    // version 2, -1 in version 1.
+    double quota = 0, period = 0;
+    if (std::ifstream(group / "cpu.max") >> quota >> period) allow(quota, period);
+    if (std::ifstream(group / "cpu.cfs_quota_us") >> quota &&
+        std::ifstream(group / "cpu.cfs_period_us") >> period)
+      allow(quota, period);
+  }
+  return least;
 }
 
-ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads));
+int defaultThreads() {
+  static const int threads = std::min(tbb::info::default_concurrency(), controlGroupCores());
+  return threads;
 }
+
+ThreadLimit::ThreadLimit(int threads)
+    : limit_(std::make_shared<tbb::global_control>(
+          tbb::global_control::max_allowed_parallelism,
+          static_cast<std::size_t>(threads > 0 ? threads : defaultThreads()))) {}
 
 }  // namespace pbrt
