@@ -14,13 +14,9 @@
 #include <new>
 
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
-
-std::size_t halfOfMemory() {
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 2;
-}
 
 namespace {
 

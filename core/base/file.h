@@ -15,12 +15,9 @@ enum class FileKind : std::uint8_t { regular, any };
 // numbers of a text can be counted in an int, and a gzipped file can state its true length.
 constexpr std::size_t kLongestFile = std::size_t{4} << 30;
 
-// Bytes of this machine: no file, nor the picture in it, may take more.
-std::size_t halfOfMemory();
-
 // All bytes of a file, unpacked if it is gzipped (told by its first bytes; RFC 1952). Throws Error,
 // Failure::io: it cannot be opened or read, is of the wrong kind, is damaged, or would be longer
-// than `longest` or half of this machine's memory, so that a few packed bytes cannot fill it.
+// than `longest` or halfOfMemory(), so that a few packed bytes cannot fill it.
 std::string readFile(const std::filesystem::path& path, FileKind allowed = FileKind::regular,
                      std::size_t longest = kLongestFile);
 

@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/image_format.h"
+#include "core/base/memory_limit.h"
 #include "core/base/replacement.h"
 
 namespace fs = std::filesystem;

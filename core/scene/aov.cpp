@@ -57,6 +57,15 @@ AovSums::AovSums(AovSet stored, Point2i size, int tile, const DPoint3& origin)
   if (stores(kOfDetail)) details_ = {size.x, size.y, tile};
 }
 
+double AovSums::bytes(AovSet stored, Point2i size, int tile) {
+  double bytes = 0;
+  if (stored & kSampleCount) bytes += BlockedArray<double>::bytes(size.x, size.y, tile);
+  if (stored & kOfSurface & ~kOfDetail)
+    bytes += BlockedArray<Surfaces>::bytes(size.x, size.y, tile);
+  if (stored & kOfDetail) bytes += BlockedArray<Details>::bytes(size.x, size.y, tile);
+  return bytes;
+}
+
 void AovSums::add(int tile, Point2i pixel, const FirstSurface& surface) {
   if (surfaces_.blocks() > 0) {
     Surfaces& s = surfaces_.row(tile, pixel.y)[pixel.x];

@@ -60,6 +60,8 @@ class AovSums {
   // `size` pixels in tiles of `tile`; `origin`: where render space's origin is in the world.
   // Throws std::bad_alloc or std::length_error.
   AovSums(AovSet stored, Point2i size, int tile, const DPoint3& origin);
+  // What they would take of memory.
+  static double bytes(AovSet stored, Point2i size, int tile);
 
   bool stores(AovSet any) const { return (stored_ & any) != 0; }
   // `pixel` counts from the tile's corner.

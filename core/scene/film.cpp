@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
 
@@ -24,14 +25,22 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
     throw Error(fmt::format("a filter cannot reach farther than {} pixels", kWidest));
   const Point2i reach(glm::ceil(radius_ - 0.5F));
   sampled_ = {crop.lo - reach, crop.hi + reach};
+  const Point2i size(sampled_.width(), sampled_.height());
+  const int apron = std::max({reach.x, reach.y, 0});
+  const bool noisy = (settings.aovs & kVariance) != 0;
+  // With the picture that is made of the sums in the end: channels of floats.
+  const double picture = 4.0 * sizeof(float) * crop.width() * crop.height();
+  const std::string what = fmt::format("a film of {} x {} pixels", crop.width(), crop.height());
+  checkMemory(picture + BlockedArray<Sum>::bytes(size.x, size.y, kTile, apron) +
+                  (noisy ? BlockedArray<Noise>::bytes(size.x, size.y, kTile, apron) : 0) +
+                  AovSums::bytes(settings.aovs, size, kTile),
+              what);
   try {
-    const Point2i size(sampled_.width(), sampled_.height());
-    sums_ = {size.x, size.y, kTile, std::max({reach.x, reach.y, 0})};
-    if (settings.aovs & kVariance) noise_ = {size.x, size.y, kTile, sums_.apron()};
+    sums_ = {size.x, size.y, kTile, apron};
+    if (noisy) noise_ = {size.x, size.y, kTile, apron};
     aovs_ = {settings.aovs, size, kTile, settings.origin};
   } catch (const std::exception&) {
-    throw Error(
-        fmt::format("not enough memory for a film of {} x {} pixels", crop.width(), crop.height()));
+    throw Error("not enough memory for " + what);
   }
 
   // Weights at the centres of the table's cells: positions are rounded to 1/32 of the radius.
