@@ -11,9 +11,12 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <new>
+#include <stdexcept>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
 #include "core/base/memory_limit.h"
 
 namespace pbrt {
@@ -33,7 +36,23 @@ std::size_t expectedSize(int descriptor, std::size_t size, bool packed) {
   return std::min(held, 1032 * size);
 }
 
+// The order counts: files are read by the thread that builds the scene. Were they read by several,
+// the lock would keep the hash whole, and the same scene would no longer have the same one.
+std::mutex digesting;
+FileDigest* digest = nullptr;
+
 }  // namespace
+
+FileDigest::FileDigest() {
+  const std::lock_guard lock(digesting);
+  if (digest != nullptr) throw std::logic_error("two file digests at a time");
+  digest = this;
+}
+
+FileDigest::~FileDigest() {
+  const std::lock_guard lock(digesting);
+  digest = nullptr;
+}
 
 std::string readFile(const std::filesystem::path& path, FileKind allowed, std::size_t longest) {
   constexpr unsigned kPiece = 1 << 18;
@@ -86,6 +105,8 @@ std::string readFile(const std::filesystem::path& path, FileKind allowed, std::s
   if (code == Z_BUF_ERROR) fail("the packed data end too early");
   if (code < 0) fail("the packed data are damaged");
   if (bytes.size() < kPiece) bytes.shrink_to_fit();  // a scene may consist of many small files
+  if (const std::lock_guard lock(digesting); digest != nullptr)
+    digest->value_ = hashBytes(bytes, digest->value_);
   return bytes;
 }
 

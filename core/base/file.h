@@ -21,4 +21,23 @@ constexpr std::size_t kLongestFile = std::size_t{4} << 30;
 std::string readFile(const std::filesystem::path& path, FileKind allowed = FileKind::regular,
                      std::size_t longest = kLongestFile);
 
+// Hashes all bytes that readFile() returns while it lives, in their order: what two scenes were
+// built from is the same if this is. Neither the names of the files count (who names a file is
+// itself read) nor their folders or times. One at a time; outside of it nothing is hashed.
+class FileDigest {
+ public:
+  // Throws std::logic_error if there is another.
+  FileDigest();
+  ~FileDigest();
+  FileDigest(const FileDigest&) = delete;
+  FileDigest& operator=(const FileDigest&) = delete;
+
+  std::uint64_t value() const { return value_; }
+
+ private:
+  friend std::string readFile(const std::filesystem::path&, FileKind, std::size_t);
+
+  std::uint64_t value_ = 0;
+};
+
 }  // namespace pbrt
