@@ -54,6 +54,10 @@ FileDigest::~FileDigest() {
   digest = nullptr;
 }
 
+std::string reasonOf(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
+}
+
 std::string readFile(const std::filesystem::path& path, FileKind allowed, std::size_t longest) {
   constexpr unsigned kPiece = 1 << 18;
   const auto fail = [&](const std::string& reason) {

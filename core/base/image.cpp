@@ -95,7 +95,7 @@ Image readImage(const fs::path& file) {
   try {
     return decode(bytes);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("cannot read {}: {}", file.string(), error.what()), Failure::io);
+    throw Error(fmt::format("cannot read {}: {}", file.string(), reasonOf(error)), Failure::io);
   }
 }
 

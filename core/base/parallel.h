@@ -14,7 +14,8 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
 // How many threads the process may use.
 int defaultThreads();
 
-// While it lives, no more than this many threads work; 0: as many as the process may use.
+// While it lives, no more than this many threads work; 0: as many as the process may use. They are
+// started at once, while there is room for them: throws Error if the system refuses one.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
