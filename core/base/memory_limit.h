@@ -19,7 +19,7 @@ inline std::size_t halfOfMemory() {
 
 // What the control groups of this process allow, in bytes; the largest number if they allow all.
 // `root`: where /proc and /sys/fs/cgroup are.
-std::size_t controlGroupLimit(const std::filesystem::path& root = "/");
+std::size_t controlGroupMemory(const std::filesystem::path& root = "/");
 
 // Throws Error ("... needs 412.0 GiB of memory; there is room for 24.0 GiB") if so many bytes are
 // more than there is room for. Doubles do not overflow.

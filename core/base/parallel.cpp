@@ -6,11 +6,16 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <fstream>
 #include <latch>
+#include <limits>
 #include <thread>
 #include <vector>
 
+#include "core/base/control_groups.h"
 #include "core/base/error.h"
 #include "core/base/file.h"
 
@@ -30,8 +35,27 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
   static_cast<void>(ended.load(std::memory_order_acquire));
 }
 
+int controlGroupCores(const std::filesystem::path& root) {
+  int least = std::numeric_limits<int>::max();
+  const auto allow = [&](double quota, double period) {
+    const double cores = std::ceil(quota / period);  // a quarter of a core needs a thread, too
+    if (cores >= 1 && cores < least) least = static_cast<int>(cores);
+  };
+  for (const std::filesystem::path& group : controlGroups("cpu", root)) {
+    // Microseconds in each period. Without a limit there is a word in place of the first number in
+    // version 2, -1 in version 1.
+    double quota = 0, period = 0;
+    if (std::ifstream(group / "cpu.max") >> quota >> period) allow(quota, period);
+    if (std::ifstream(group / "cpu.cfs_quota_us") >> quota &&
+        std::ifstream(group / "cpu.cfs_period_us") >> period)
+      allow(quota, period);
+  }
+  return least;
+}
+
 int defaultThreads() {
-  return tbb::info::default_concurrency();
+  static const int threads = std::min(tbb::info::default_concurrency(), controlGroupCores());
+  return threads;
 }
 
 namespace {
@@ -64,10 +88,10 @@ void startThreads(int n) {
 }  // namespace
 
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads));
-  startThreads(threads > 0 ? threads : defaultThreads());
+  const int n = threads > 0 ? threads : defaultThreads();
+  limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                 static_cast<std::size_t>(n));
+  startThreads(n);
 }
 
 }  // namespace pbrt

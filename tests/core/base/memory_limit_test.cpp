@@ -21,7 +21,7 @@ class Groups : public testing::Test {
     fs::create_directories((folder_.path() / name).parent_path());
     folder_.write(name, text);
   }
-  std::size_t limit() const { return controlGroupLimit(folder_.path()); }
+  std::size_t limit() const { return controlGroupMemory(folder_.path()); }
 
   test::Folder folder_;
 };
