@@ -158,16 +158,22 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
   const bool any = most() > goal_.firstSample;
-  if (saves() && control_.samplesDone > 0) saveCheckpoint();
+  std::optional<Error> unsaved;
+  if (saves() && control_.samplesDone > 0) try {
+      saveCheckpoint();
+    } catch (const Error& error) {
+      unsaved = error;
+    }
   try {
     if (any) writeOutputs();
   } catch (const Error& error) {
-    if (!saves()) throw;
+    if (!saves() || unsaved) throw;
     std::vector<Diagnostic> diagnostics = error.diagnostics();
     diagnostics.push_back(
         {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
     throw Error(std::move(diagnostics), error.failure());
   }
+  if (unsaved) throw *unsaved;
   return any;
 }
 
