@@ -46,8 +46,10 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("scene", o.files,
                  "Scene files; several are one scene in sequence. None, or -, is "
                  "standard input");
-  app.add_option("--outfile", o.outputs, "Where the picture goes (.exr, .png; .film: its sums, for pbrt-merge and --resume); "
-                 "may be repeated")
+  app.add_option(
+         "--outfile", o.outputs,
+         "Where the picture goes (.exr, .png; .film: its sums, for pbrt-merge and --resume); "
+         "may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--spp", o.samplesPerPixel, "Samples per pixel")

@@ -21,9 +21,9 @@ struct Options {
   std::string samples;
   std::vector<std::string> aovs;
   AovSet aovSet = 0;
-  Goal goal;               // see goalOf()
-  std::string checkpoint;  // file; empty: none
-  std::optional<double> checkpointEvery;  // seconds; finishOptions() decides
+  Goal goal;                    // see goalOf()
+  std::string checkpoint;       // file; empty: none
+  double checkpointEvery = 60;  // seconds
   bool resume = false;
   bool quiet = false;
   ProgressStyle progress = ProgressStyle::automatic;  // finishOptions() decides

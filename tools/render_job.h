@@ -1,6 +1,7 @@
 #pragma once
 // A scene on its way to pictures: passes, checkpoints, interruptions.
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -32,9 +33,9 @@ class RenderJob {
   // Renders until the goal is reached, or a signal asks it to end; returns whether the first. What
   // should be saved now and then is.
   bool run();
-  // Saves the checkpoint, then pictures and films, of all samples that there are. If one cannot be
-  // written the others are. Throws Error.
-  void finish();
+  // Saves the checkpoint, then pictures and films, of the samples that there are; returns whether
+  // there are any. If one cannot be written the others are. Throws Error.
+  bool finish();
 
   // Says where it ended before its goal was reached, and how to go on.
   std::string interruption() const;
@@ -46,7 +47,10 @@ class RenderJob {
   void saveCheckpoint();
   void writeOutputs() const;
   void writeSoFar() const;
+  void tryTo(const std::function<void()>& write) const;
   FilmInfo info() const;
+  bool saves() const { return !o_.checkpoint.empty(); }
+  std::string progress() const;                           // "12 to 64 of 64 samples per pixel"
   std::uint64_t samplesSince(std::uint32_t first) const;  // of all pixels together
   std::uint32_t least() const;  // one past the last sample that all tiles have, and
   std::uint32_t most() const;   // that any has

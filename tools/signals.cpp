@@ -75,7 +75,11 @@ void Signals::setTimer(double seconds) {
   setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
-bool Signals::takeRequest() { return requestFlag.exchange(false); }
-bool Signals::interrupted() { return interruptedFlag; }
+bool Signals::takeRequest() {
+  return requestFlag.exchange(false);
+}
+bool Signals::interrupted() {
+  return interruptedFlag;
+}
 
 }  // namespace pbrt

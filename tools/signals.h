@@ -7,8 +7,8 @@ namespace pbrt {
 
 // While it lives, SIGUSR1 sets a flag that ends the render (RenderControl::stop), and so do, once
 // catchInterruptions() is called, SIGTERM, SIGHUP and the first SIGINT: the second ends the
-// process. Those interruptions that were ignored stay so. Afterwards they are as before, but SIGUSR1
-// never ends the process again. One at a time.
+// process. Those interruptions that were ignored stay so. Afterwards they are as before, but
+// SIGUSR1 never ends the process again. One at a time.
 class Signals {
  public:
   // `stop` outlives it.

@@ -5,7 +5,9 @@
 namespace pbrt {
 
 std::map<std::string, ImageAttribute> pictureAttributes(const FilmInfo& info) {
-  const auto samplesTo = [&](std::uint32_t end) { return static_cast<int>(end - info.firstSample); };
+  const auto samplesTo = [&](std::uint32_t end) {
+    return static_cast<int>(end - info.firstSample);
+  };
   auto attributes = info.attributes;
   attributes["firstSample"] = static_cast<int>(info.firstSample);
   attributes["samplesPerPixel"] = samplesTo(info.endSample);
