@@ -102,7 +102,6 @@ void RenderJob::resume() {
     refuse("its tiles are not those of this film");
   control_.badSamples = found.badSamples;
   start_ -= found.seconds;
-  // Planned by the error alone, passes end where those of a render did that was not interrupted.
   // PASSEND
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
@@ -224,6 +223,7 @@ FilmInfo RenderJob::info() const {
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
+  info.passEnd = goal_.error ? passEnd_ : 0;
   info.badSamples = control_.badSamples;
   info.seconds = seconds();
   info.attributes = scene_.attributes();
