@@ -77,32 +77,27 @@ void RenderJob::resume() {
   const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
   };
-  {
-    const FilmReader reader(o_.checkpoint);
-    const FilmInfo& found = reader.info();
-    const std::string differs = difference(key_, found.key);
-    if (!differs.empty()) refuse(differs);
-    if (found.window != scene_.film().crop())
-      refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
-                         inWords(scene_.film().crop())));
-    if (found.firstSample != goal_.firstSample)
-      refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
-    const std::uint32_t most =
-        found.interrupted() ? *std::ranges::max_element(found.reached) : found.endSample;
-    if (most > goal_.endSample)
-      refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
-                         most - goal_.firstSample, goal_.endSample - goal_.firstSample));
-  }
-  const FilmInfo found = readFilm(o_.checkpoint, scene_.film());
-  if (!found.interrupted())
-    std::ranges::fill(control_.reached, found.endSample);
-  else if (found.reached.size() == control_.reached.size())
+  const FilmInfo found = FilmReader(o_.checkpoint).info();
+  const std::uint32_t most =
+      found.interrupted() ? std::ranges::max(found.reached) : found.endSample;
+  const std::string differs = difference(key_, found.key);
+  if (!differs.empty()) refuse(differs);
+  if (found.window != scene_.film().crop())
+    refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
+                       inWords(scene_.film().crop())));
+  if (found.firstSample != goal_.firstSample)
+    refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
+  if (most > goal_.endSample)
+    refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
+                       most - goal_.firstSample, goal_.endSample - goal_.firstSample));
+  readFilm(o_.checkpoint, scene_.film());
+  if (found.interrupted())
     control_.reached = found.reached;
   else
-    refuse("its tiles are not those of this film");
+    std::ranges::fill(control_.reached, found.endSample);
+  if (goal_.error) passEnd_ = std::min(found.passEnd, goal_.endSample);
   control_.badSamples = found.badSamples;
   start_ -= found.seconds;
-  // PASSEND
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
 
