@@ -143,7 +143,12 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
-    scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    try {
+      scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    } catch (const Error&) {  // which leaves a film that can be gone on with
+      if (saves()) tryTo([&] { saveCheckpoint(); });
+      throw;
+    }
     progress.rest();
   }
   return true;

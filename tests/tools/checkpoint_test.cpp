@@ -178,7 +178,7 @@ TEST_F(Checkpoint, TheTargetErrorIsReachedWithTheSameSamples) {
 // It is tried again; in the end it is an error, but the picture is there.
 TEST_F(Checkpoint, RendersOnWhereItCannotBeSaved) {
   Running render(folder,
-                 "--quiet --log-level warning --spp 60 --checkpoint c.film --checkpoint-every 10ms "
+                 "--quiet --spp 60 --checkpoint c.film --checkpoint-every 10ms "
                  "--outfile out.exr scene.pbrt");
   render.until([&] { return has("c.film"); });
   fs::remove(folder.path() / "c.film");
