@@ -77,33 +77,27 @@ void RenderJob::resume() {
   const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
   };
-  {
-    const FilmReader reader(o_.checkpoint);
-    const FilmInfo& found = reader.info();
-    const std::string differs = difference(key_, found.key);
-    if (!differs.empty()) refuse(differs);
-    if (found.window != scene_.film().crop())
-      refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
-                         inWords(scene_.film().crop())));
-    if (found.firstSample != goal_.firstSample)
-      refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
-    const std::uint32_t most =
-        found.interrupted() ? *std::ranges::max_element(found.reached) : found.endSample;
-    if (most > goal_.endSample)
-      refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
-                         most - goal_.firstSample, goal_.endSample - goal_.firstSample));
-  }
-  const FilmInfo found = readFilm(o_.checkpoint, scene_.film());
-  if (!found.interrupted())
-    std::ranges::fill(control_.reached, found.endSample);
-  else if (found.reached.size() == control_.reached.size())
+  const FilmInfo found = FilmReader(o_.checkpoint).info();
+  const std::uint32_t most =
+      found.interrupted() ? std::ranges::max(found.reached) : found.endSample;
+  const std::string differs = difference(key_, found.key);
+  if (!differs.empty()) refuse(differs);
+  if (found.window != scene_.film().crop())
+    refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
+                       inWords(scene_.film().crop())));
+  if (found.firstSample != goal_.firstSample)
+    refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
+  if (most > goal_.endSample)
+    refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
+                       most - goal_.firstSample, goal_.endSample - goal_.firstSample));
+  readFilm(o_.checkpoint, scene_.film());
+  if (found.interrupted())
     control_.reached = found.reached;
   else
-    refuse("its tiles are not those of this film");
+    std::ranges::fill(control_.reached, found.endSample);
+  if (goal_.error) passEnd_ = std::min(found.passEnd, goal_.endSample);
   control_.badSamples = found.badSamples;
   start_ -= found.seconds;
-  // Planned by the error alone, passes end where those of a render did that was not interrupted.
-  // PASSEND
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
 
@@ -149,7 +143,12 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
-    scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    try {
+      scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    } catch (const Error&) {  // which leaves a film that can be gone on with
+      if (saves()) tryTo([&] { saveCheckpoint(); });
+      throw;
+    }
     progress.rest();
   }
   return true;
@@ -224,6 +223,7 @@ FilmInfo RenderJob::info() const {
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
+  info.passEnd = goal_.error ? passEnd_ : 0;
   info.badSamples = control_.badSamples;
   info.seconds = seconds();
   info.attributes = scene_.attributes();
