@@ -21,7 +21,8 @@ int defaultThreads();
 int controlGroupCores(const std::filesystem::path& root = "/");
 
 // While it lives, no more than this many threads work; 0: defaultThreads(). More than there are
-// cores are so many all the same. Where several live, the least counts.
+// cores are so many all the same. Where several live, the least counts. The threads are started at
+// once, while there is room for them: throws Error, Failure::io, if the system refuses one.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);
