@@ -46,7 +46,10 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("scene", o.files,
                  "Scene files; several are one scene in sequence. None, or -, is "
                  "standard input");
-  app.add_option("--outfile", o.outputs, "Where the picture goes (.exr or .png); may be repeated")
+  app.add_option(
+         "--outfile", o.outputs,
+         "Where the picture goes (.exr, .png; .film: its sums, for pbrt-merge and --resume); "
+         "may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--spp", o.samplesPerPixel, "Samples per pixel")
@@ -63,6 +66,16 @@ void defineOptions(CLI::App& app, Options& o) {
       ->check(positiveNumber());
   app.add_option("--write-every", o.goal.interval, "Write the picture so far this often, e.g. 10s")
       ->transform(seconds());
+  auto* checkpoint = app.add_option("--checkpoint", o.checkpoint,
+                                    "Save all samples to this file (.film) now and then, when a "
+                                    "signal stops the render, and at its end");
+  app.add_option("--checkpoint-every", o.checkpointEvery, "How often (default 60s)")
+      ->transform(seconds())
+      ->needs(checkpoint);
+  app.add_flag("--resume", o.resume,
+               "Go on from the checkpoint, to the same picture bit for bit; begin if there is none "
+               "yet. --time counts the seconds of all runs")
+      ->needs(checkpoint);
   app.add_option("--aov", o.aovs,
                  fmt::format("What to store in the .exr beside the picture: {}",
                              fmt::join(aovNames(), ", ")))
@@ -117,7 +130,10 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
-  app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
+  app.footer(
+      "SIGUSR1: save the checkpoint (without one: the picture so far) and go on.\n"
+      "SIGTERM, SIGINT, SIGHUP: save both and end; a second SIGINT: end at once.\n"
+      "Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in, 75 interrupted.");
 }
 
 std::vector<std::string> words(int argc, char** argv) {

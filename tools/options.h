@@ -21,7 +21,10 @@ struct Options {
   std::string samples;
   std::vector<std::string> aovs;
   AovSet aovSet = 0;
-  Goal goal;  // see goalOf()
+  Goal goal;                    // see goalOf()
+  std::string checkpoint;       // file; empty: none
+  double checkpointEvery = 60;  // seconds
+  bool resume = false;
   bool quiet = false;
   ProgressStyle progress = ProgressStyle::automatic;  // finishOptions() decides
   bool stats = false;
