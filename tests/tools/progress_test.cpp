@@ -10,6 +10,7 @@
 #include <regex>
 #include <sstream>
 
+#include "core/base/image.h"
 #include "tests/command.h"
 #include "tests/tools/stripes.h"
 
@@ -176,6 +177,23 @@ TEST_F(ProgressCommand, JsonIsAnObjectALine) {
   EXPECT_GT(end.at("raysPerSecond"), 0);
   EXPECT_GT(end.at("error"), 0);
   EXPECT_EQ(objects[0].at("state"), "rendering");
+}
+
+// Stripes: the variance of n tosses of a coin over the squared mean is 0.25 / n / 0.26.
+TEST_F(ProgressCommand, TellsTheErrorIfAsked) {
+  const std::string spp = " --spp 600 --outfile ";
+  const Outcome outcome =
+      folder.pbrt("--progress=json --progress-error" + spp + "told.exr scene.pbrt");
+  const nlohmann::json end =
+      nlohmann::json::parse(linesOf(outcome.out).at(linesOf(outcome.out).size() - 2));
+  EXPECT_GT(end.at("error"), 0.02);
+  EXPECT_LT(end.at("error"), 0.08) << "that of more than half of the samples";
+  EXPECT_THAT(folder.pbrt("--progress=json" + spp + "plain.exr scene.pbrt").out,
+              HasSubstr(R"("error":null)"));
+  const Image told = readExr(folder.path() / "told.exr"),
+              plain = readExr(folder.path() / "plain.exr");
+  EXPECT_EQ(told.names, plain.names);
+  EXPECT_EQ(told.channels, plain.channels);
 }
 
 TEST_F(ProgressCommand, FailuresAreTold) {
