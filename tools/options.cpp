@@ -108,6 +108,8 @@ void defineOptions(CLI::App& app, Options& o) {
          "lines (messages of Open Job Description on standard output), json (there, an object a "
          "line), none; auto: bar, or none with --quiet")
       ->check(CLI::IsMember(&kProgressStyles));
+  app.add_flag("--progress-error", o.goal.showsError,
+               "Tell the relative error, as --target-error estimates it, about every 10 s");
   auto* stats = app.add_flag("--stats", o.stats,
                              "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
@@ -170,7 +172,7 @@ void finishOptions(Options& o) {
   if (!o.samples.empty()) readRange(o.samples, o.goal);
   for (const std::string& name : o.aovs) o.aovSet |= *aovByName(name);
   o.build.aovs = o.aovSet;
-  if (o.goal.error) o.build.aovs |= kVariance;
+  if (o.goal.error || o.goal.showsError) o.build.aovs |= kVariance;
   if (!o.cropWindow.empty()) {
     o.build.cropWindow.emplace();
     std::copy(o.cropWindow.begin(), o.cropWindow.end(), o.build.cropWindow->begin());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "core/base/file.h"
 #include "core/parse/format.h"
 #include "listing.h"
 #include "options.h"
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
       pbrt::finishOptions(options);
       return pbrt::run(options);
     } catch (const std::exception& error) {
-      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
+      fmt::print("{}", pbrt::failureLine(options.progress, pbrt::reasonOf(error)));
       throw;
     }
   });

@@ -108,7 +108,7 @@ bool RenderJob::run() {
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
     std::optional<double> error;
-    if (goal_.error && samples() > 0 && least() == most()) {
+    if ((goal_.error || goal_.showsError) && samples() > 0 && least() == most()) {
       error = estimatedError(scene_.film().image(kVariance));
       progress.error(*error);
     }
