@@ -58,7 +58,12 @@ int main(int argc, char** argv) {
   CLI::App app("pbrt renders scenes described in the pbrt format.", "pbrt");
   pbrt::defineOptions(app, options);
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
-    pbrt::finishOptions(options);
-    return pbrt::run(options);
+    try {
+      pbrt::finishOptions(options);
+      return pbrt::run(options);
+    } catch (const std::exception& error) {
+      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
+      throw;
+    }
   });
 }
