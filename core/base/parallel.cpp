@@ -1,6 +1,8 @@
 #include "core/base/parallel.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -75,6 +77,10 @@ namespace {
 void startThreads(int n) {
   static std::atomic<int> started = 1;  // the one that runs here
   if (n <= started) return;
+  // Where addresses are rationed, a heap for each thread (64 MiB of them, in glibc) is too much.
+  if (rlimit addresses{};
+      getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    mallopt(M_ARENA_MAX, 1);
   std::latch end(1);
   std::vector<std::thread> trial;
   const auto join = [&] {
