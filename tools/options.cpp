@@ -101,6 +101,8 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
+  app.add_flag("--strict", o.strict,
+               "End at the first sample that fails, instead of counting it as black");
   app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
 }
 

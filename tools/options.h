@@ -23,6 +23,7 @@ struct Options {
   Goal goal;  // see goalOf()
   bool quiet = false;
   bool stats = false;
+  bool strict = false;
   std::string logLevel = "warning";
   bool check = false;
   bool format = false;

@@ -8,7 +8,9 @@
 #include "core/base/file.h"
 #include "core/parse/format.h"
 #include "core/parse/parse.h"
+#include "core/plugin/culprit.h"
 #include "core/scene/render.h"
+#include "crash.h"
 #include "listing.h"
 #include "options.h"
 #include "progress.h"
@@ -128,13 +130,11 @@ int render(const Options& o, PluginLoader& loader) {
 
   RenderControl control;
   control.threads = o.build.threads;
+  control.strict = o.strict;
   const Goal goal = goalOf(o, scene->sampler().samplesPerPixel());
   const std::uint32_t samples = renderPasses(o, *scene, goal, control, outputs);
   t.rendered = now();
-  if (control.badSamples)
-    o.build.report({Severity::warning,
-                    fmt::format("{} samples were not a number or infinite; they count as black",
-                                control.badSamples.load())});
+  if (control.faults.count()) o.build.report({Severity::warning, describe(control.faults)});
   writePictures(o, *scene, goal, samples, t.rendered - t.ready, outputs);
   t.written = now();
   if (!o.quiet)
@@ -168,6 +168,11 @@ int main(int argc, char** argv) {
   pbrt::defineOptions(app, options);
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
     pbrt::finishOptions(options);
-    return pbrt::run(options);
+    pbrt::tellOfCrashes();
+    try {
+      return pbrt::run(options);
+    } catch (...) {
+      std::rethrow_exception(pbrt::asError());
+    }
   });
 }

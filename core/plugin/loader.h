@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/plugin/culprit.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -48,16 +49,18 @@ class PluginLoader {
   std::vector<LoadedPlugin> opened_;
 };
 
-// Makes an object of the plug-in; what the plug-in throws gains the place of its statement.
+// Makes an object of the plug-in; what the plug-in throws becomes an Error with the place of its
+// statement.
 template <class Interface>
 std::unique_ptr<Interface> create(const PluginInfo& plugin, Params& params,
                                   const typename Interface::Setup& setup) {
   auto* make = plugin.create;
   if constexpr (std::is_same_v<Interface, Texture<Spectrum>>) make = plugin.createSpectrum;
+  const Making making(params.where());
   try {
     return std::unique_ptr<Interface>(static_cast<Interface*>(make(params, &setup)));
-  } catch (const Error& error) {
-    throw error.at(params.where());
+  } catch (...) {
+    std::rethrow_exception(asError(params.where(), &plugin));
   }
 }
 
