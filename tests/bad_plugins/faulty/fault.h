@@ -14,7 +14,7 @@ class Fault {
       : kind_(p.choice("fault", kKinds, "none", "what goes wrong")),
         from_(p.number("from", -1e30F, "the least x at which it does")),
         to_(p.number("to", 1e30F, "the greatest")) {
-    if (p.boolean("making", false, "whether it does so when it is made")) number(0);
+    if (p.flag("making", false, "whether it does so when it is made")) number(0);
   }
 
   // At x, in whatever space: not a number, if that is what goes wrong; else 1.

@@ -7,10 +7,11 @@ namespace pbrt {
 class FaultySampler final : public Sampler {
  public:
   FaultySampler(Params& p, const Setup& setup)
-      : Sampler(setup.samplesPerPixel.value_or(p.positiveInteger("pixelsamples", 1, "a pixel"))),
+      : Sampler(
+            setup.samplesPerPixel.value_or(p.integer("pixelsamples", 1, 1, 1 << 20, "a pixel"))),
         fault_(std::make_shared<Fault>(p)),
         pixel_(p.integers("pixel", "the pixel that fails: x and y")),
-        index_(p.integer("sample", 0, "the sample that does")) {}
+        index_(p.integer("sample", 0, 0, 1 << 20, "the sample that does")) {}
   std::unique_ptr<Sampler> clone() const override { return std::make_unique<FaultySampler>(*this); }
   void start(Point2i pixel, std::uint32_t index) override {
     const bool hit = pixel_.empty() || pixel == Point2i(pixel_[0], pixel_[1]);
