@@ -3,27 +3,34 @@
 
 namespace pbrt {
 
-// A sum and what its roundings have lost (Knuth 1969, "Seminumerical Algorithms", section 4.2.2,
-// theorem B): together they hold the exact sum, in whatever order it was added up, as long as its
-// terms are multiples of one number q and stay below 2^104 q. Beyond that the error is below
-// 2^-104 of the sum of the terms' magnitudes. Zero bytes are an empty sum.
-struct ExactSum {
-  double sum = 0;
-  double lost = 0;
+// N sums side by side, and what their roundings have lost (Knuth 1969, "Seminumerical Algorithms",
+// section 4.2.2, theorem B: what an addition loses is a number of the same type). The loss of an
+// addition is at most 2^-53 |sum|. Where all terms are multiples of one number q, so are the
+// losses, and they add up without rounding while they stay below 2^53 q together. So n terms have
+// one sum, whatever their order, if
+//   n |sum| < 2^106 q  at every moment,
+// and else its error is below n^2 2^-106 of the greatest |sum|. Terms must be finite, and so must
+// be their sums. Zero bytes are empty sums.
+template <int N>
+struct ExactSums {
+  double sum[N] = {};
+  double lost[N] = {};
 
-  void add(double x) {
-    const double total = sum + x;
-    const double part = total - sum;
-    lost += (sum - (total - part)) + (x - part);
-    sum = total;
+  void add(const double (&x)[N]) {
+    for (int i = 0; i < N; ++i) {
+      const double total = sum[i] + x[i];
+      const double part = total - sum[i];
+      lost[i] += (sum[i] - (total - part)) + (x[i] - part);
+      sum[i] = total;
+    }
   }
-  ExactSum& operator+=(const ExactSum& o) {
+  ExactSums& operator+=(const ExactSums& o) {
     add(o.sum);
-    lost += o.lost;
+    for (int i = 0; i < N; ++i) lost[i] += o.lost[i];
     return *this;
   }
   // Rounded once.
-  double value() const { return sum + lost; }
+  double value(int i) const { return sum[i] + lost[i]; }
 };
 
 }  // namespace pbrt

@@ -11,16 +11,15 @@
 #include <cerrno>
 #include <cstring>
 #include <memory>
+#include <mutex>
 #include <new>
+#include <stdexcept>
 
 #include "core/base/error.h"
+#include "core/base/hash.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
-
-std::size_t halfOfMemory() {
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 2;
-}
 
 namespace {
 
@@ -37,7 +36,27 @@ std::size_t expectedSize(int descriptor, std::size_t size, bool packed) {
   return std::min(held, 1032 * size);
 }
 
+// The order counts: files are read by the thread that builds the scene. Were they read by several,
+// the lock would keep the hash whole, and the same scene would no longer have the same one.
+std::mutex digesting;
+FileDigest* digest = nullptr;
+
 }  // namespace
+
+FileDigest::FileDigest() {
+  const std::lock_guard lock(digesting);
+  if (digest != nullptr) throw std::logic_error("two file digests at a time");
+  digest = this;
+}
+
+FileDigest::~FileDigest() {
+  const std::lock_guard lock(digesting);
+  digest = nullptr;
+}
+
+std::string reasonOf(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
+}
 
 std::string readFile(const std::filesystem::path& path, FileKind allowed, std::size_t longest) {
   constexpr unsigned kPiece = 1 << 18;
@@ -90,6 +109,8 @@ std::string readFile(const std::filesystem::path& path, FileKind allowed, std::s
   if (code == Z_BUF_ERROR) fail("the packed data end too early");
   if (code < 0) fail("the packed data are damaged");
   if (bytes.size() < kPiece) bytes.shrink_to_fit();  // a scene may consist of many small files
+  if (const std::lock_guard lock(digesting); digest != nullptr)
+    digest->value_ = hashBytes(bytes, digest->value_);
   return bytes;
 }
 

@@ -10,6 +10,9 @@
 #include <cstdlib>
 #include <memory>
 
+#include "core/base/file.h"
+#include "core/base/hash.h"
+
 namespace pbrt {
 
 namespace fs = std::filesystem;
@@ -54,6 +57,13 @@ std::string linkerError(const fs::path& file) {
   return text;
 }
 
+// The file of this library, wherever it is installed; empty if that cannot be told.
+fs::path ownFile() {
+  Dl_info self{};
+  if (dladdr(reinterpret_cast<const void*>(&kindName), &self) == 0) return {};
+  return fs::absolute(self.dli_fname);
+}
+
 }  // namespace
 
 std::string_view kindName(PluginKind kind) {
@@ -87,10 +97,7 @@ std::vector<fs::path> PluginLoader::searchPath(const std::string& extra) {
   std::vector<fs::path> path;
   addPaths(path, extra);
   if (const char* environment = std::getenv("PBRT_PLUGIN_PATH")) addPaths(path, environment);
-  // Beside this library, wherever it is installed.
-  Dl_info self{};
-  if (dladdr(reinterpret_cast<const void*>(&kindName), &self) != 0)
-    path.push_back(fs::absolute(self.dli_fname).parent_path() / "pbrt");
+  if (const fs::path own = ownFile(); !own.empty()) path.push_back(own.parent_path() / "pbrt");
   return path;
 }
 
@@ -139,6 +146,12 @@ const PluginInfo& PluginLoader::open(PluginKind kind, const std::string& name) {
   opened_.push_back({info, file, seconds.count()});
   cache_.emplace(key, info);
   return *info;
+}
+
+std::uint64_t PluginLoader::programs() const {
+  std::uint64_t hash = hashBytes(readFile(ownFile()));
+  for (const LoadedPlugin& plugin : opened_) hash = hashBytes(readFile(plugin.file), hash);
+  return hash;
 }
 
 std::vector<std::string> PluginLoader::available(PluginKind kind) const {

@@ -40,6 +40,9 @@ class PluginLoader {
   std::vector<std::string> available(PluginKind kind) const;
   // What was opened so far, in order.
   const std::vector<LoadedPlugin>& opened() const { return opened_; }
+  // A hash of the files of the core library and of the plug-ins that were opened, in their order,
+  // as they are now: the same only if every byte is. Throws Error, Failure::io, if one is gone.
+  std::uint64_t programs() const;
 
  private:
   std::filesystem::path find(PluginKind kind, const std::string& name) const;

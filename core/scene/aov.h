@@ -7,8 +7,6 @@
 #include <string_view>
 
 #include "core/api/interaction.h"
-#include "core/base/blocked_array.h"
-#include "core/base/image.h"
 
 namespace pbrt {
 
@@ -39,7 +37,9 @@ inline constexpr AovSet kOfSurface = kAlbedo | kNormal | kPosition | kDepth | kO
 std::span<const std::string_view> aovNames();
 std::optional<AovSet> aovByName(std::string_view name);
 
-// What a camera ray meets first.
+// What a camera ray meets first. The film averages it over those samples taken in each pixel itself
+// that met something (the reconstruction filter has no part in it), but the shape is that of the
+// first such sample; pixels that saw none are 0.
 struct FirstSurface {
   Spectrum albedo{0};
   Normal3 n{0};
@@ -49,45 +49,6 @@ struct FirstSurface {
   Normal3 trueN{0};
   Vec3 dpdu{0}, dpdv{0};
   std::uint32_t shape = 0;
-};
-
-// All of them but the variance, which is the filtered picture's own. Sums over the samples taken in
-// each pixel itself: the reconstruction filter has no part in them. Surfaces are averaged over the
-// samples that met one, but the shape is that of the first such sample; pixels that saw none are 0.
-class AovSums {
- public:
-  AovSums() = default;
-  // `size` pixels in tiles of `tile`; `origin`: where render space's origin is in the world.
-  // Throws std::bad_alloc or std::length_error.
-  AovSums(AovSet stored, Point2i size, int tile, const DPoint3& origin);
-
-  bool stores(AovSet any) const { return (stored_ & any) != 0; }
-  // `pixel` counts from the tile's corner.
-  void addSample(int tile, Point2i pixel) { ++counts_.row(tile, pixel.y)[pixel.x]; }
-  void add(int tile, Point2i pixel, const FirstSurface& surface);
-
-  // Appends those channels of `wanted` that are stored, over `window`, which counts from the first
-  // pixel of all.
-  void appendTo(Image& image, AovSet wanted, const Bounds2i& window) const;
-
- private:
-  struct Surfaces {
-    glm::dvec3 albedo{0}, n{0}, p{0};
-    double depth = 0, count = 0;
-  };
-  // What few ask for.
-  struct Details {
-    glm::dvec2 uv{0};
-    glm::dvec3 n{0}, dpdu{0}, dpdv{0};
-    double count = 0;
-    std::uint32_t shape = 0;
-  };
-
-  AovSet stored_ = 0;
-  glm::dvec3 origin_{0};
-  BlockedArray<double> counts_;      // empty unless the sample count is stored
-  BlockedArray<Surfaces> surfaces_;  // empty unless something else of the surface is
-  BlockedArray<Details> details_;    // empty unless any of kOfDetail is
 };
 
 }  // namespace pbrt

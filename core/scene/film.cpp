@@ -2,15 +2,54 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <limits>
+
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
+
+namespace {
+
+constexpr int kWidest = 256;  // filters, in pixels
+
+// What can be added up: infinities are as good as the largest number; what is none is left out.
+double finite(float x) {
+  constexpr float kMost = std::numeric_limits<float>::max();
+  return std::isnan(x) ? 0 : double{std::clamp(x, -kMost, kMost)};
+}
+
+// The greatest integer below x, or x, without a call of the library.
+int wholePart(float x) {
+  const int i = static_cast<int>(x);
+  return i - (x < static_cast<float>(i) ? 1 : 0);
+}
+
+int roundDown(int x, int multiple) {
+  const int rest = x % multiple;
+  return x - (rest < 0 ? rest + multiple : rest);
+}
+
+// Pixels of `part` in whole blocks, which begin at whole.lo, as far as they are in `whole`.
+Bounds2i wholeBlocks(const Bounds2i& part, const Bounds2i& whole, int block) {
+  Bounds2i widened;
+  for (int i = 0; i < 2; ++i) {
+    widened.lo[i] = whole.lo[i] + roundDown(part.lo[i] - whole.lo[i], block);
+    widened.hi[i] = whole.lo[i] - roundDown(whole.lo[i] - part.hi[i], block);
+  }
+  return intersect(widened, whole);
+}
+
+}  // namespace
 
 Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings)
     : resolution_(resolution),
       crop_(crop),
       scale_(settings.scale),
       brightest_(settings.brightest),
+      aovs_(settings.aovs),
+      origin_(settings.origin),
       radius_(filter.radius()) {
   // Beyond this the table below and the borders of the tiles have no sizes.
   constexpr float kLeast = 1e-3F, kMost = 1e3F;
@@ -18,28 +57,53 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
     if (!(radius_[i] >= kLeast && radius_[i] <= kMost))
       throw Error(fmt::format("the filter reaches over {} pixels; it must be from {} to {}",
                               radius_[i], kLeast, kMost));
-  // The centre of pixel i is at i + 1/2; a sample at x reaches the centres within the radius.
-  constexpr float kWidest = 256;
   if (!(std::max(radius_.x, radius_.y) <= kWidest))
     throw Error(fmt::format("a filter cannot reach farther than {} pixels", kWidest));
-  const Point2i reach(glm::ceil(radius_ - 0.5F));
-  sampled_ = {crop.lo - reach, crop.hi + reach};
-  try {
-    const Point2i size(sampled_.width(), sampled_.height());
-    sums_ = {size.x, size.y, kTile, std::max({reach.x, reach.y, 0})};
-    if (settings.aovs & kVariance) noise_ = {size.x, size.y, kTile, sums_.apron()};
-    aovs_ = {settings.aovs, size, kTile, settings.origin};
-  } catch (const std::exception&) {
-    throw Error(
-        fmt::format("not enough memory for a film of {} x {} pixels", crop.width(), crop.height()));
-  }
+  // The centre of pixel i is at i + 1/2; a sample at x reaches the centres within the radius.
+  reach_ = glm::max(Point2i(glm::ceil(radius_ - 0.5F)), 0);
+  sampled_ = wholeBlocks({crop.lo - reach_, crop.hi + reach_}, {-reach_, resolution + reach_},
+                         settings.block);
+  makeSums();
+  makeTable(filter);
+}
 
+void Film::makeSums() {
+  const Point2i size(sampled_.width(), sampled_.height());
+  const int apron = std::max(reach_.x, reach_.y);
+  const auto each = [&](const auto& visit) {
+    visit(picture_, apron);
+    if (stores(kVariance)) visit(noise_, apron);
+    if (stores(kSampleCount)) visit(samples_, 0);
+    if (stores(kOfSurface & ~kOfDetail)) visit(surface_, 0);
+    if (stores(kOfDetail)) visit(detail_, 0);
+  };
+  // With the picture that is made of them in the end: it must not fail then.
+  double bytes = 4.0 * sizeof(float) * crop_.width() * crop_.height();
+  each([&](const auto& sums, int border) { bytes += sums.bytes(size.x, size.y, kTile, border); });
+  const std::string what = fmt::format("a film of {} x {} pixels", crop_.width(), crop_.height());
+  checkMemory(bytes, what);
+  try {
+    each([&](auto& sums, int border) { sums = {size.x, size.y, kTile, border}; });
+  } catch (const std::exception&) {
+    throw Error("not enough memory for " + what);
+  }
+}
+
+void Film::makeTable(const Filter& filter) {
   // Weights at the centres of the table's cells: positions are rounded to 1/32 of the radius.
   tableScale_ = static_cast<float>(kTable) / radius_;
   table_.resize(std::size_t{kTable} * kTable);
+  float greatest = 0;
   for (int y = 0; y < kTable; ++y)
-    for (int x = 0; x < kTable; ++x)
-      table_[y * kTable + x] = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
+    for (int x = 0; x < kTable; ++x) {
+      const float w = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
+      table_[y * kTable + x] = w;
+      greatest = std::max(greatest, std::abs(w));
+    }
+  // Multiples of 2^-24 of the greatest: the sum of the weights of half a billion samples is exact
+  // in a double, and products with samples spread over fewer bits.
+  const int unit = std::ilogb(greatest) - 23;
+  for (float& w : table_) w = std::ldexp(std::rint(std::ldexp(w, -unit)), unit);
 
   // A pixel is sum(w L) / sum(w) over independent samples of variance s^2, n in each pixel:
   // s^2 sum(w^2) / sum(w)^2 = s^2 / n * integral(w^2) / integral(w)^2, over areas in pixels.
@@ -50,122 +114,117 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
 }
 
 Bounds2i Film::tilePixels(int tile) const {
-  const Point2i lo = sampled_.lo + sums_.corner(tile);
+  const Point2i lo = sampled_.lo + picture_.corner(tile);
   return intersect(sampled_, {lo, lo + kTile});
 }
 
 template <class Add>
 void Film::spread(int tile, Point2 film, Add add) const {
-  const Point2i origin = sampled_.lo + sums_.corner(tile) - sums_.apron();
-  // Sample and pixel centres in the tile's own pixels, so that truncation rounds down.
-  const Point2 p = film - Point2(origin) - 0.5F;
-  const int x0 = std::max(0, static_cast<int>(p.x - radius_.x) + (p.x >= radius_.x));
-  const int y0 = std::max(0, static_cast<int>(p.y - radius_.y) + (p.y >= radius_.y));
-  const int x1 = std::min(sums_.stride() - 1, static_cast<int>(p.x + radius_.x));
-  const int y1 = std::min(sums_.stride() - 1, static_cast<int>(p.y + radius_.y));
+  const Point2i pixel(wholePart(film.x), wholePart(film.y));
+  // From the centre of the sample's pixel: so weights do not depend on the tile that it is in.
+  const Vec2 p = film - Point2(pixel) - 0.5F;
+  const int x0 = std::max(-reach_.x, wholePart(p.x - radius_.x) + 1);
+  const int y0 = std::max(-reach_.y, wholePart(p.y - radius_.y) + 1);
+  const int x1 = std::min(reach_.x, wholePart(p.x + radius_.x));
+  const int y1 = std::min(reach_.y, wholePart(p.y + radius_.y));
+  const auto inTable = [](int i, float at, float scale) {
+    return std::min(kTable - 1, static_cast<int>(std::abs(static_cast<float>(i) - at) * scale));
+  };
+  int columns[2 * kWidest + 1];
+  for (int x = x0; x <= x1; ++x) columns[x - x0] = inTable(x, p.x, tableScale_.x);
+  const Point2i cell = pixel - corner(tile);
   for (int y = y0; y <= y1; ++y) {
-    const int ty = std::min(
-        kTable - 1, static_cast<int>(std::abs(static_cast<float>(y) - p.y) * tableScale_.y));
-    const float* weights = &table_[ty * kTable];
-    for (int x = x0; x <= x1; ++x) {
-      const int tx = std::min(
-          kTable - 1, static_cast<int>(std::abs(static_cast<float>(x) - p.x) * tableScale_.x));
-      add(x, y, double{weights[tx]});
-    }
+    const float* weights = &table_[inTable(y, p.y, tableScale_.y) * kTable];
+    for (int x = x0; x <= x1; ++x) add(cell.x + x, cell.y + y, double{weights[columns[x - x0]]});
   }
 }
 
 void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
-  Spectrum L = radiance * scale_;
-  if (const float y = luminance(radiance); y > brightest_) L *= brightest_ / y;
+  Spectrum L = radiance;
+  if (const float y = luminance(L); y > brightest_) L *= brightest_ / y;
+  constexpr float kMost = std::numeric_limits<float>::max();
+  L = glm::clamp(L * scale_, -kMost, kMost);
   spread(tile, film, [&](int x, int y, double w) {
-    Sum& sum = sums_.row(tile, y)[x];
-    sum.r += w * L.x;
-    sum.g += w * L.y;
-    sum.b += w * L.z;
-    sum.alpha += w * alpha;
-    sum.weight += w;
+    PictureSums& sums = picture_.row(tile, y)[x];
+    sums.rgba.add({w * L.x, w * L.y, w * L.z, w * alpha});
+    sums.weight += w;
   });
-  if (noise_.blocks() > 0)
+  if (stores(kVariance))
     spread(tile, film, [&](int x, int y, double w) {
       if (w == 0) return;
-      Noise& noise = noise_.row(tile, y)[x];
+      NoiseSums& noise = noise_.row(tile, y)[x];
       const glm::dvec3 wL = w * glm::dvec3(L);
-      noise.wwL += w * wL;
-      noise.wwLL += wL * wL;
-      noise.ww += w * w;
+      noise.sums.add({w * wL.x, w * wL.y, w * wL.z, wL.x * wL.x, wL.y * wL.y, wL.z * wL.z, w * w});
       ++noise.count;
     });
-  if (aovs_.stores(kSampleCount))
-    aovs_.addSample(tile, Point2i(glm::floor(film)) - sampled_.lo - sums_.corner(tile));
+  if (stores(kSampleCount)) {
+    const Point2i at = Point2i(glm::floor(film)) - sampled_.lo - samples_.corner(tile);
+    ++samples_.row(tile, at.y)[at.x];
+  }
 }
 
-void Film::add(int tile, Point2i pixel, const FirstSurface& surface) {
-  aovs_.add(tile, pixel - (sampled_.lo + sums_.corner(tile)), surface);
+void Film::add(int tile, Point2i pixel, std::uint32_t index, const FirstSurface& s) {
+  const Point2i at = pixel - sampled_.lo - picture_.corner(tile);
+  if (surface_.blocks() > 0) {
+    SurfaceSums sums;
+    sums.sums.add({finite(s.albedo.x), finite(s.albedo.y), finite(s.albedo.z), finite(s.n.x),
+                   finite(s.n.y), finite(s.n.z), finite(s.p.x), finite(s.p.y), finite(s.p.z),
+                   finite(s.depth)});
+    sums.count = 1;
+    surface_.row(tile, at.y)[at.x] += sums;
+  }
+  if (detail_.blocks() > 0) {
+    DetailSums sums;
+    sums.sums.add({finite(s.uv.x), finite(s.uv.y), finite(s.trueN.x), finite(s.trueN.y),
+                   finite(s.trueN.z), finite(s.dpdu.x), finite(s.dpdu.y), finite(s.dpdu.z),
+                   finite(s.dpdv.x), finite(s.dpdv.y), finite(s.dpdv.z)});
+    sums.count = 1;
+    sums.shape = s.shape;
+    sums.first = index;
+    detail_.row(tile, at.y)[at.x] += sums;
+  }
 }
 
-template <class T>
-T Film::gather(const BlockedArray<T>& sums, Point2i pixel) const {
-  const int border = sums.apron();
+FilmPixel Film::pixel(Point2i pixel) const {
+  const Point2i at = pixel - sampled_.lo;
+  FilmPixel all;
   // The tiles whose sums, with their borders, cover this pixel.
-  const Point2i first = glm::max(pixel - border, 0) / kTile;
-  const Point2i last = glm::min((pixel + border) / kTile, Point2i(sums.across(), sums.down()) - 1);
-  T total;
+  const int border = picture_.apron();
+  const Point2i first = glm::max(at - border, 0) / kTile;
+  const Point2i last =
+      glm::min((at + border) / kTile, Point2i(picture_.across(), picture_.down()) - 1);
   for (int ty = first.y; ty <= last.y; ++ty)
     for (int tx = first.x; tx <= last.x; ++tx) {
-      const Point2i in = pixel - Point2i(tx, ty) * kTile + border;
-      total += sums.row(ty * sums.across() + tx, in.y)[in.x];
+      const int tile = ty * picture_.across() + tx;
+      const Point2i in = at - Point2i(tx, ty) * kTile + border;
+      all.picture += picture_.row(tile, in.y)[in.x];
+      if (noise_.blocks() > 0) all.noise += noise_.row(tile, in.y)[in.x];
     }
-  return total;
+  const Point2i own = at / kTile, in = at - own * kTile;
+  const int tile = own.y * picture_.across() + own.x;
+  if (samples_.blocks() > 0) all.samples = samples_.row(tile, in.y)[in.x];
+  if (surface_.blocks() > 0) all.surface = surface_.row(tile, in.y)[in.x];
+  if (detail_.blocks() > 0) all.detail = detail_.row(tile, in.y)[in.x];
+  return all;
 }
 
-// A pixel is m = sum(w L) / sum(w), a ratio of two sums over independent samples; to first order
-// its variance is sum(w^2 (L - m)^2) / sum(w)^2 (Cochran 1977, "Sampling Techniques",
-// section 2.11), times n / (n - 1) for the n samples that m was taken from itself. Where samples
-// are spread better than at random, the true variance is smaller.
-void Film::appendVariance(Image& image) const {
-  const std::size_t first = image.channels.size();
-  for (const char* name : {"Variance.R", "Variance.G", "Variance.B"}) {
-    image.names.emplace_back(name);
-    image.channels.emplace_back(image.channels[0].size());
-  }
-  std::size_t i = 0;
-  for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
-    for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
-      const Point2i pixel = Point2i(x, y) - sampled_.lo;
-      const Noise noise = gather(noise_, pixel);
-      const Sum sum = gather(sums_, pixel);
-      if (noise.count < 2 || sum.weight == 0) continue;
-      const glm::dvec3 m = glm::dvec3(sum.r, sum.g, sum.b) / sum.weight;
-      const glm::dvec3 squares = noise.wwLL - 2.0 * m * noise.wwL + m * m * noise.ww;
-      const double scale = noise.count / ((noise.count - 1) * sum.weight * sum.weight);
-      for (int c = 0; c < 3; ++c)
-        image.channels[first + c][i] = static_cast<float>(std::max(0.0, squares[c]) * scale);
-    }
+void Film::add(Point2i pixel, const FilmPixel& sums) {
+  const Point2i at = pixel - sampled_.lo, own = at / kTile, in = at - own * kTile;
+  const int tile = own.y * picture_.across() + own.x;
+  const Point2i inBorder = in + picture_.apron();
+  picture_.row(tile, inBorder.y)[inBorder.x] += sums.picture;
+  if (noise_.blocks() > 0) noise_.row(tile, inBorder.y)[inBorder.x] += sums.noise;
+  if (samples_.blocks() > 0) samples_.row(tile, in.y)[in.x] += sums.samples;
+  if (surface_.blocks() > 0) surface_.row(tile, in.y)[in.x] += sums.surface;
+  if (detail_.blocks() > 0) detail_.row(tile, in.y)[in.x] += sums.detail;
 }
 
 Image Film::image(AovSet aovs) const {
-  Image image;
-  image.window = crop_;
-  image.resolution = resolution_;
-  image.names = {"R", "G", "B", "A"};
-  const std::size_t n = std::size_t(crop_.width()) * crop_.height();
-  image.channels.assign(4, std::vector<float>(n));
-
-  std::size_t i = 0;
-  for (int y = crop_.lo.y; y < crop_.hi.y; ++y)
-    for (int x = crop_.lo.x; x < crop_.hi.x; ++x, ++i) {
-      const Sum sum = gather(sums_, Point2i(x, y) - sampled_.lo);
-      if (sum.weight == 0) continue;
-      const double scale = 1 / sum.weight;
-      image.channels[0][i] = static_cast<float>(std::max(0.0, sum.r * scale));
-      image.channels[1][i] = static_cast<float>(std::max(0.0, sum.g * scale));
-      image.channels[2][i] = static_cast<float>(std::max(0.0, sum.b * scale));
-      image.channels[3][i] = static_cast<float>(std::clamp(sum.alpha * scale, 0.0, 1.0));
-    }
-  if (aovs & kVariance && noise_.blocks() > 0) appendVariance(image);
-  aovs_.appendTo(image, aovs, {crop_.lo - sampled_.lo, crop_.hi - sampled_.lo});
-  return image;
+  return pictureOf({resolution_, crop_, static_cast<AovSet>(aovs & aovs_), origin_},
+                   [&](int y, std::span<FilmPixel> pixels) {
+                     for (int x = crop_.lo.x; x < crop_.hi.x; ++x)
+                       pixels[x - crop_.lo.x] = pixel({x, y});
+                   });
 }
 
 }  // namespace pbrt

@@ -9,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/signal_stack.h"
 #include "core/scene/accel.h"
@@ -57,15 +58,22 @@ struct TileJob {
   float differentialScale;
   int blockWidth;
 
+  // Goes on with a tile from where it is.
   void render(int tile, Worker& worker) const {
     const Bounds2i pixels = film.tilePixels(tile);
-    // Sample by sample, not pixel by pixel: the sums grow in the same order when the samples come
-    // in several passes.
-    for (std::uint32_t s = control.firstSample; s < control.endSample; ++s)
+    const auto samples = static_cast<std::uint64_t>(pixels.width()) * pixels.height();
+    // Sample by sample, not pixel by pixel: all pixels have the same samples when it is stopped.
+    std::uint32_t& s = control.reached[tile];
+    for (; s < control.endSample; ++s) {
+      if (control.stop) return;
       for (int y = pixels.lo.y; y < pixels.hi.y; y += blockWidth)
         for (int x = pixels.lo.x; x < pixels.hi.x; x += blockWidth)
           renderBlock(tile, intersect(pixels, {{x, y}, {x + blockWidth, y + blockWidth}}), s,
                       worker);
+      control.rays.fetch_add(Accel::takeRayCount(), std::memory_order_relaxed);
+      control.samplesDone.fetch_add(samples, std::memory_order_relaxed);
+    }
+    ++control.tilesDone;
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
@@ -96,7 +104,7 @@ struct TileJob {
         add({place});
         sample.surface.reset();
       }
-      if (sample.surface) film.add(tile, place.pixel, *sample.surface);
+      if (sample.surface) film.add(tile, place.pixel, index, *sample.surface);
     }
   }
 
@@ -236,6 +244,9 @@ struct TileJob {
 
 void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film& film,
                                 RenderControl& control) const {
+  const auto tiles = static_cast<std::size_t>(film.tiles());
+  if (control.reached.empty()) control.reached.assign(tiles, control.firstSample);
+  if (control.reached.size() != tiles) throw Error("a render cannot go on with another film");
   // A pixel's samples share its area: each stands for 1 / n of it.
   const float samples = control.samplesPerPixel ? static_cast<float>(control.samplesPerPixel)
                                                 : static_cast<float>(sampler.samplesPerPixel());
@@ -255,13 +266,9 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film.tiles(), 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int tile = range.begin(); tile < range.end(); ++tile) {
-            if (control.stop) return;
+          for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
             job.render(tile, workers.local());
-            control.rays += Accel::takeRayCount();
-            ++control.tilesDone;
-            setCurrentSample({});
-          }
+          setCurrentSample({});
         },
         tbb::simple_partitioner());
   });

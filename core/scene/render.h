@@ -19,12 +19,16 @@ struct RenderControl {
   // How many samples share a pixel once it is whole: textures are filtered the finer, the more.
   std::uint32_t samplesPerPixel = 0;  // 0: those of the sampler
 
-  // One past the last sample that each tile has so far; the render keeps it. A render that was
-  // stopped goes on from there, with this or another control. Empty: no tile has any.
+  // One past the last sample that each tile of the film has; the render keeps it. A render that was
+  // stopped goes on from there, with this or another control. Empty: each has those before
+  // firstSample.
   std::vector<std::uint32_t> reached;
 
-  std::atomic<bool> stop{false};  // ends the render after the samples in progress, of a tile each
+  // Ends the render once each tile in progress has one sample more for all of its pixels.
+  std::atomic<bool> stop{false};
+  // Of all renders with this control: tiles that have reached endSample, and samples of pixels.
   std::atomic<int> tilesDone{0};
+  std::atomic<std::uint64_t> samplesDone{0};
   std::atomic<std::uint64_t> rays{0};
   FaultLog faults;      // samples that failed: they count as black
   bool strict = false;  // whether the first of them ends the render, which then throws

@@ -77,6 +77,7 @@ class Scene final : public World, private HitFilter {
   }
   std::uint64_t seed() const { return seed_; }
   Film& film() { return *film_; }
+  const Film& film() const { return *film_; }
   const std::string& outputFile() const { return outputFile_; }
   // What the picture should say about itself: worldToCamera, worldToNDC.
   const std::map<std::string, ImageAttribute>& attributes() const { return attributes_; }
