@@ -17,8 +17,8 @@ class FaultyShape final : public Shape {
     const double t = -ray.o.z / ray.d.z;
     const DPoint3 p = ray.at(t);
     if (!(t > ray.tMin && t <= ray.tMax) || std::abs(p.x) > 1 || std::abs(p.y) > 1) return {};
-    const float number = in_ == "intersect" ? fault_.number(ray.o.x) : 1;
-    return ShapeHit{static_cast<float>(t) * number};
+    if (in_ == "intersect") fault_.number(ray.o.x);
+    return ShapeHit{static_cast<float>(t)};
   }
   bool occluded(const ObjectRay& ray, std::uint32_t primitive) const override {
     if (in_ == "occluded") fault_.number(ray.o.x);
@@ -27,8 +27,8 @@ class FaultyShape final : public Shape {
   SurfacePoint surface(const ObjectRay& ray, const ShapeHit& hit) const override {
     SurfacePoint s;
     s.p = ray.at(hit.t);
-    s.p.z = in_ == "surface" ? fault_.number(ray.o.x) - 1 : 0;
-    s.n = {0, 0, -1};
+    s.p.z = 0;
+    s.n = {0, 0, in_ == "surface" ? -fault_.number(ray.o.x) : -1};
     s.dpdu = {1, 0, 0}, s.dpdv = {0, 1, 0};
     s.uv = Point2(s.p);
     return s;
