@@ -52,8 +52,7 @@ class PluginLoader {
   std::vector<LoadedPlugin> opened_;
 };
 
-// Makes an object of the plug-in; what the plug-in throws becomes an Error with the place of its
-// statement.
+// Makes an object of the plug-in; what the plug-in throws gains the place of its statement.
 template <class Interface>
 std::unique_ptr<Interface> create(const PluginInfo& plugin, Params& params,
                                   const typename Interface::Setup& setup) {
@@ -62,8 +61,8 @@ std::unique_ptr<Interface> create(const PluginInfo& plugin, Params& params,
   const Making making(params.where());
   try {
     return std::unique_ptr<Interface>(static_cast<Interface*>(make(params, &setup)));
-  } catch (...) {
-    std::rethrow_exception(asError(params.where(), &plugin));
+  } catch (const Error& error) {
+    throw error.at(params.where());
   }
 }
 

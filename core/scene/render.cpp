@@ -87,7 +87,7 @@ struct TileJob {
         const SamplePlace place{{x, y}, index, 1};
         bool sees = false;
         if (attempt(place, [&] { sees = start(place, worker, n); }) && !sees) add({place});
-        if (!sees) blind(place, worker, n);
+        if (!sees) blind(worker, n);
       }
     look({pixels.lo, index, blockWidth}, n, width, at, worker);
     for (int i = 0; i < n; ++i) {
@@ -119,16 +119,17 @@ struct TileJob {
   // Begins lane i of a block. False if sampler or camera give what is no number.
   bool start(const SamplePlace& place, Worker& worker, int i) const {
     Sampler& sampler = *worker.samplers[i];
-    sampler.start(place.pixel, place.sample);
     CameraSample& sample = worker.samples[i];
+    sample.film = inPixel(place.pixel, Point2(0.5F));
+    sampler.start(place.pixel, place.sample);
     const Point2 u = sampler.pixel2D();
+    if (!(u.x >= 0 && u.y >= 0 && u.x < 1 && u.y < 1)) return false;
     sample.film = inPixel(place.pixel, u);
     if (world.camera().usesLens()) sample.lens = sampler.get2D();
     if (world.moves()) sample.time = sampler.get1D();
     CameraRay& camera = worker.cameraRays[i];
     camera = world.camera().generate(sample, world.filters());
-    const bool inside = u.x >= 0 && u.y >= 0 && u.x < 1 && u.y < 1;
-    if (!inside || !(camera.weight >= 0 && camera.weight < kInfinity) ||
+    if (!std::isfinite(camera.weight) ||
         (camera.weight > 0 && !(isFinite(camera.ray.o) && isFinite(camera.ray.d))))
       return false;
     // One that meets nothing, for what may be no ray.
@@ -138,9 +139,8 @@ struct TileJob {
     return true;
   }
 
-  // The same for a sample that has failed already: it sees nothing.
-  static void blind(const SamplePlace& place, Worker& worker, int i) {
-    worker.samples[i].film = inPixel(place.pixel, Point2(0.5F));
+  // Lane i of a sample that has failed already: it sees nothing.
+  static void blind(Worker& worker, int i) {
     worker.cameraRays[i] = {RayDifferential({.d = {0, 0, 1}, .tMax = 0}), 0};
     worker.rays[i] = &worker.cameraRays[i].ray;
   }
@@ -160,7 +160,7 @@ struct TileJob {
               hits[i] = {};
               integrator.look(world, rays.subspan(i, 1), 1, hits.subspan(i, 1));
             }))
-          blind(at(i), worker, i);
+          blind(worker, i);
     }
   }
 
