@@ -132,6 +132,8 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
+  app.add_flag("--strict", o.strict,
+               "End at the first sample that fails, instead of counting it as black");
   app.footer(
       "SIGUSR1: save the checkpoint (without one: the picture so far) and go on.\n"
       "SIGTERM, SIGINT, SIGHUP: save both and end; a second SIGINT: end at once.\n"

@@ -5,6 +5,8 @@
 #include "command.h"
 #include "core/base/file.h"
 #include "core/parse/format.h"
+#include "core/plugin/culprit.h"
+#include "crash.h"
 #include "listing.h"
 #include "options.h"
 #include "reading.h"
@@ -61,10 +63,11 @@ int main(int argc, char** argv) {
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
     try {
       pbrt::finishOptions(options);
+      pbrt::tellOfCrashes();
       return pbrt::run(options);
-    } catch (const std::exception& error) {
-      fmt::print("{}", pbrt::failureLine(options.progress, pbrt::reasonOf(error)));
-      throw;
+    } catch (...) {
+      fmt::print("{}", pbrt::failureLine(options.progress, pbrt::whatWasThrown()));
+      std::rethrow_exception(pbrt::asError());
     }
   });
 }

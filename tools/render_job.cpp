@@ -7,6 +7,7 @@
 
 #include "core/base/replacement.h"
 #include "core/scene/picture_attributes.h"
+#include "crash.h"
 #include "stats.h"
 #include "status_line.h"
 
@@ -96,7 +97,9 @@ void RenderJob::resume() {
   else
     std::ranges::fill(control_.reached, found.endSample);
   if (goal_.error) passEnd_ = std::min(found.passEnd, goal_.endSample);
-  control_.badSamples = found.badSamples;
+  control_.faults.addEarlier(found.badSamples);
+  if (o_.strict && found.badSamples > 0) refuse(describe(control_.faults));
+  adviseToResume();
   start_ -= found.seconds;
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
@@ -146,7 +149,7 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     try {
       scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
     } catch (const Error&) {  // which leaves a film that can be gone on with
-      if (saves()) tryTo([&] { saveCheckpoint(); });
+      if (saves() && control_.samplesDone > 0) tryTo([&] { saveCheckpoint(); });
       throw;
     }
     progress.rest();
@@ -178,6 +181,11 @@ bool RenderJob::finish() {
 
 void RenderJob::saveCheckpoint() {
   writeFilm(o_.checkpoint, scene_.film(), info());
+  adviseToResume();
+}
+
+void RenderJob::adviseToResume() const {
+  adviseAfterCrash(o_.checkpoint + " holds the samples so far: go on with --resume");
 }
 
 void RenderJob::writeOutputs() const {
@@ -224,7 +232,7 @@ FilmInfo RenderJob::info() const {
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
   info.passEnd = goal_.error ? passEnd_ : 0;
-  info.badSamples = control_.badSamples;
+  info.badSamples = control_.faults.count();
   info.seconds = seconds();
   info.attributes = scene_.attributes();
   info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());
