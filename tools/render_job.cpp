@@ -28,6 +28,18 @@ std::string inWords(const Bounds2i& window) {
   return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
 }
 
+// What went wrong with it; empty: nothing.
+std::optional<Error> failureOf(const std::function<void()>& write) {
+  try {
+    write();
+    return {};
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error("out of memory for a picture of this size");
+  }
+}
+
 void note(const Options& o, const std::string& message) {
   if (!o.quiet) printError(format({Severity::note, message}));
 }
@@ -160,21 +172,16 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
   const bool any = most() > goal_.firstSample;
-  std::optional<Error> unsaved;
-  if (saves() && control_.samplesDone > 0) try {
-      saveCheckpoint();
-    } catch (const Error& error) {
-      unsaved = error;
-    }
-  try {
-    if (any) writeOutputs();
-  } catch (const Error& error) {
-    if (!saves() || unsaved) throw;
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+  std::optional<Error> unsaved, unwritten;
+  if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
+  if (any) unwritten = failureOf([&] { writeOutputs(); });
+  if (unwritten && saves() && !unsaved) {
+    std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
     diagnostics.push_back(
         {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
-    throw Error(std::move(diagnostics), error.failure());
+    throw Error(std::move(diagnostics), unwritten->failure());
   }
+  if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
   return any;
 }
@@ -191,22 +198,21 @@ void RenderJob::adviseToResume() const {
 void RenderJob::writeOutputs() const {
   const FilmInfo info = this->info();
   std::optional<Image> image;
-  std::optional<Error> failure;  // the first; the others are written all the same
-  for (const std::string& output : outputs_) try {
-      if (isFilm(output)) {
-        writeFilm(output, scene_.film(), info);
-        continue;
-      }
-      if (!image) {
-        const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-        image = scene_.film().image(~notStored);
-        image->attributes = pictureAttributes(info);
-      }
-      writeImage(output, *image);
-    } catch (const Error& error) {
-      if (!failure) failure = error;
+  const auto write = [&](const std::string& output) {
+    if (isFilm(output)) return writeFilm(output, scene_.film(), info);
+    if (!image) {
+      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
+      image = scene_.film().image(~notStored);
+      image->attributes = pictureAttributes(info);
     }
-  if (failure) throw *failure;
+    writeImage(output, *image);
+  };
+  std::optional<Error> first;  // failure; the other outputs are written all the same
+  for (const std::string& output : outputs_) {
+    const std::optional<Error> failure = failureOf([&] { write(output); });
+    if (!first) first = failure;
+  }
+  if (first) throw *first;
 }
 
 void RenderJob::writeSoFar() const {
@@ -215,13 +221,11 @@ void RenderJob::writeSoFar() const {
 
 // Errors become warnings: it is tried again later.
 void RenderJob::tryTo(const std::function<void()>& write) const {
-  try {
-    write();
-  } catch (const Error& error) {
-    for (Diagnostic d : error.diagnostics()) {
-      d.severity = Severity::warning;
-      o_.build.report(d);
-    }
+  const std::optional<Error> failure = failureOf(write);
+  if (!failure) return;
+  for (Diagnostic d : failure->diagnostics()) {
+    d.severity = Severity::warning;
+    o_.build.report(d);
   }
 }
 
