@@ -4,6 +4,8 @@
 
 #include "command.h"
 #include "core/parse/format.h"
+#include "core/plugin/culprit.h"
+#include "crash.h"
 #include "listing.h"
 #include "options.h"
 #include "reading.h"
@@ -60,10 +62,11 @@ int main(int argc, char** argv) {
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
     try {
       pbrt::finishOptions(options);
+      pbrt::tellOfCrashes();
       return pbrt::run(options);
-    } catch (const std::exception& error) {
-      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
-      throw;
+    } catch (...) {
+      fmt::print("{}", pbrt::failureLine(options.progress, pbrt::whatWasThrown()));
+      std::rethrow_exception(pbrt::asError());
     }
   });
 }
