@@ -106,7 +106,7 @@ void RenderJob::resume() {
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height());
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
