@@ -11,6 +11,12 @@
 
 namespace pbrt {
 
+// Tells an error, and returns its exit code.
+inline int tell(const Error& error) {
+  for (const Diagnostic& d : error.diagnostics()) fmt::print(stderr, "{}\n", format(d));
+  return static_cast<int>(error.failure());
+}
+
 // Parses the words of the command line (the last first, as CLI11 wants them), then calls body(),
 // which returns the exit code. Errors are printed and become exit codes: those of Failure, 3 if
 // memory is short, `bug` for what should not be.
@@ -27,8 +33,7 @@ int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug
     fmt::print(stderr, "error: cannot write to standard output\n");
     return static_cast<int>(Failure::io);
   } catch (const Error& error) {
-    for (const Diagnostic& d : error.diagnostics()) fmt::print(stderr, "{}\n", format(d));
-    return static_cast<int>(error.failure());
+    return tell(error);
   } catch (const std::bad_alloc&) {
     fmt::print(stderr, "error: out of memory\n");
     return static_cast<int>(Failure::scene);
