@@ -8,12 +8,12 @@
 #include "command.h"
 #include "core/base/file.h"
 #include "core/base/numbered_name.h"
+#include "rendering.h"
+#include "status_line.h"
 
 namespace pbrt {
 
 namespace {
-
-constexpr int kInterrupted = 75;
 
 // The first number of `text`, which is moved on behind it. Empty if there is none.
 std::optional<int> takeNumber(std::string_view& text) {
@@ -57,6 +57,7 @@ Options optionsOf(const Options& all, int frame) {
   if (o.framesPerSecond > 0) o.build.time = frame / o.framesPerSecond;
   setNumber(o.files, frame);
   setNumber(o.outputs, frame);
+  o.checkpoint = numbered(o.checkpoint, frame);
   renewReports(o);
   return o;
 }
@@ -90,6 +91,7 @@ Outcome carryOut(const Options& o, const Command& command) {
     const int code = command(o, loader);
     return {code, code == kInterrupted};
   } catch (const Error& error) {
+    fmt::print("{}", failureLine(o.progress, error.what()));
     const int code = tell(error);
     return {code, error.failure() == Failure::io && !sceneIsUnreadable(o)};
   } catch (const std::bad_alloc&) {
@@ -130,6 +132,9 @@ void checkFrames(const Options& o) {
     if (numberRuns(output) == 0)
       refuse(fmt::format("--outfile {}: pictures of frames need a name with #, such as ####.exr",
                          shown(output)));
+  if (!o.checkpoint.empty() && numberRuns(o.checkpoint) == 0)
+    refuse(fmt::format("--checkpoint {}: each frame needs one of its own, such as ####.film",
+                       shown(o.checkpoint)));
   // What has the name of a frame is whole, so that --skip-existing may trust it.
   if (o.goal.interval)
     refuse("--write-every writes pictures that are not whole: not with --frames");
@@ -152,10 +157,10 @@ int forFrames(const Options& o, const Command& command) {
     if (last) break;
   }
   if (there > 0 && !o.quiet)
-    fmt::print(stderr, "{} of {} frames were there already\n", there, o.frames.size());
+    printError(fmt::format("{} of {} frames were there already", there, o.frames.size()));
   if (!failed.empty() && o.frames.size() > 1)
-    fmt::print(stderr, "{} of {} frames failed: {}\n", failed.size(), o.frames.size(),
-               fmt::join(failed, ", "));
+    printError(fmt::format("{} of {} frames failed: {}", failed.size(), o.frames.size(),
+                           fmt::join(failed, ", ")));
   return first;
 }
 

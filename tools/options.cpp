@@ -26,6 +26,12 @@ void readRange(const std::string& text, Goal& goal) {
       Failure::usage);
 }
 
+const std::map<std::string, ProgressStyle> kProgressStyles = {{"auto", ProgressStyle::automatic},
+                                                              {"bar", ProgressStyle::bar},
+                                                              {"lines", ProgressStyle::lines},
+                                                              {"json", ProgressStyle::json},
+                                                              {"none", ProgressStyle::none}};
+
 // A duration in seconds: 30, 30s, 1.5m, 2h, 500ms.
 CLI::Validator seconds() {
   return CLI::AsNumberWithUnit(
@@ -41,7 +47,10 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_option("scene", o.files,
                  "Scene files; several are one scene in sequence. None, or -, is "
                  "standard input");
-  app.add_option("--outfile", o.outputs, "Where the picture goes (.exr or .png); may be repeated")
+  app.add_option(
+         "--outfile", o.outputs,
+         "Where the picture goes (.exr, .png; .film: its sums, for pbrt-merge and --resume); "
+         "may be repeated")
       ->take_all()
       ->allow_extra_args(false);
   app.add_option("--spp", o.samplesPerPixel, "Samples per pixel")
@@ -58,6 +67,16 @@ void defineOptions(CLI::App& app, Options& o) {
       ->check(positiveNumber());
   app.add_option("--write-every", o.goal.interval, "Write the picture so far this often, e.g. 10s")
       ->transform(seconds());
+  auto* checkpoint = app.add_option("--checkpoint", o.checkpoint,
+                                    "Save all samples to this file (.film) now and then, when a "
+                                    "signal stops the render, and at its end");
+  app.add_option("--checkpoint-every", o.checkpointEvery, "How often (default 60s)")
+      ->transform(seconds())
+      ->needs(checkpoint);
+  app.add_flag("--resume", o.resume,
+               "Go on from the checkpoint, to the same picture bit for bit; begin if there is none "
+               "yet. --time counts the seconds of all runs")
+      ->needs(checkpoint);
   app.add_option("--aov", o.aovs,
                  fmt::format("What to store in the .exr beside the picture: {}",
                              fmt::join(aovNames(), ", ")))
@@ -77,7 +96,9 @@ void defineOptions(CLI::App& app, Options& o) {
   app.add_flag("--skip-existing", o.skipExisting,
                "Leave out frames whose pictures are there already");
   app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");
-  app.add_option("--nthreads", o.build.threads, "Number of threads (default: all cores)")
+  app.add_option("--nthreads", o.build.threads,
+                 "Exactly so many threads work, above the number of cores, too (default: the cores "
+                 "that affinity and the container leave to pbrt)")
       ->check(CLI::Range(1, 4096));
   app.add_option("--width", o.build.width, "Width in pixels; the height follows")
       ->check(CLI::Range(1, 1 << 16));
@@ -90,7 +111,15 @@ void defineOptions(CLI::App& app, Options& o) {
       ->expected(4)
       ->allow_extra_args(false);
   app.add_flag("--quick", o.build.quick, "A quarter of the resolution each way and of the samples");
-  app.add_flag("--quiet", o.quiet, "Say nothing but errors, and what --stats tells");
+  app.add_flag("--quiet", o.quiet,
+               "Say nothing but errors, and what --stats and --progress are asked to tell");
+  app.add_option_function<std::string>(
+         "--progress",
+         [&o](const std::string& name) { o.progress = kProgressStyles.find(name)->second; },
+         "How to tell how far the render is: bar (on a terminal; elsewhere a line now and then), "
+         "lines (messages of Open Job Description on standard output), json (there, an object a "
+         "line), none; auto: bar, or none with --quiet")
+      ->check(CLI::IsMember(&kProgressStyles));
   auto* stats = app.add_flag("--stats", o.stats,
                              "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
@@ -113,7 +142,10 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
-  app.footer("Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in.");
+  app.footer(
+      "SIGUSR1: save the checkpoint (without one: the picture so far) and go on.\n"
+      "SIGTERM, SIGINT, SIGHUP: save both and end; a second SIGINT: end at once.\n"
+      "Exit codes: 0 done, 2 usage, 3 scene, 4 file or image, 5 plug-in, 75 interrupted.");
 }
 
 std::vector<std::string> words(int argc, char** argv) {
@@ -139,6 +171,10 @@ std::vector<std::string> words(int argc, char** argv) {
 }
 
 void finishOptions(Options& o) {
+  if (o.progress == ProgressStyle::automatic)
+    o.progress = o.quiet ? ProgressStyle::none : ProgressStyle::bar;
+  if (o.stats && o.progress == ProgressStyle::json)
+    throw Error("--stats would come between the objects of --progress=json", Failure::usage);
   if (!o.dialect.empty()) o.build.dialect = dialectByName(o.dialect);
   if (!o.describe.empty() && (o.describe.size() == 1) != (o.describe[0] == "all"))
     throw Error("--describe takes KIND NAME, or all", Failure::usage);

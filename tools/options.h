@@ -5,6 +5,7 @@
 
 #include "core/scene/builder.h"
 #include "passes.h"
+#include "progress_state.h"
 #include "reports.h"
 
 namespace pbrt {
@@ -25,8 +26,12 @@ struct Options {
   std::string samples;
   std::vector<std::string> aovs;
   AovSet aovSet = 0;
-  Goal goal;  // see goalOf()
+  Goal goal;                    // see goalOf()
+  std::string checkpoint;       // file; empty: none
+  double checkpointEvery = 60;  // seconds
+  bool resume = false;
   bool quiet = false;
+  ProgressStyle progress = ProgressStyle::automatic;  // finishOptions() decides
   bool stats = false;
   std::string logLevel = "warning";
   bool check = false;

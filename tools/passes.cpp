@@ -24,16 +24,20 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
 
   const std::uint32_t done = taken();
   const std::uint32_t left = goal_.endSample - end_;
+  double part = static_cast<double>(done) / std::max(1U, done + left);
   if (!goal_.seconds && !goal_.error && !goal_.interval) {
-    end_ = goal_.endSample;
-    return {goal_.firstSample + done, end_, 0, 1};
+    const Pass pass{end_, goal_.endSample, part, 1};
+    end_ = pass.end;
+    return pass;
   }
   // The first tells how long a sample takes; each further pass at most doubles what there is, since
   // it is planned from what was seen.
   const double perSample = seconds / std::max(1U, done);
   double wanted = std::min(left, std::max(1U, done));
-  double part = static_cast<double>(done) / (done + left), whole = done + left;
-  if (done > 0) {
+  double whole = done + left;
+  if (end_ < passEnd_) {
+    wanted = passEnd_ - end_;
+  } else if (done > 0) {
     if (goal_.seconds) {
       const double room = std::max(0.0, (*goal_.seconds - seconds) / perSample);
       wanted = std::min(wanted, room);

@@ -29,15 +29,19 @@ double estimatedError(const Image& image);
 // all pixels the same samples. How it is split does not change the picture.
 class Passes {
  public:
-  explicit Passes(const Goal& goal) : goal_(goal), end_(goal.firstSample) {}
+  explicit Passes(const Goal& goal) : Passes(goal, goal.firstSample, goal.firstSample) {}
+  // Goes on where each pixel has the samples before `end`, and some have others before `passEnd`,
+  // to which the first pass then brings all of them. Neither is beyond the goal's end.
+  Passes(const Goal& goal, std::uint32_t end, std::uint32_t passEnd)
+      : goal_(goal), end_(end), passEnd_(passEnd) {}
 
   struct Pass {
     std::uint32_t first = 0, end = 0;  // samples
     double from = 0, to = 0;           // the part of the whole render, from 0 to 1, that it is
     bool empty() const { return first == end; }
   };
-  // The next pass, the last being done. Empty: the goal is reached. `seconds`: since the start;
-  // `sinceLook`: since the last look; `error`: the estimate, if it is known.
+  // The next pass, the last being done. Empty: the goal is reached. `seconds`: since the start,
+  // all runs together; `sinceLook`: since the last look; `error`: the estimate, if it is known.
   Pass next(double seconds, double sinceLook, std::optional<double> error);
 
   // Samples per pixel up to the end of the pass that next() gave last.
@@ -46,6 +50,7 @@ class Passes {
  private:
   Goal goal_;
   std::uint32_t end_;
+  std::uint32_t passEnd_;
 };
 
 }  // namespace pbrt

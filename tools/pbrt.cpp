@@ -37,13 +37,14 @@ int check(const Options& o, PluginLoader& loader) {
 
 int run(const Options& o) {
   const auto carryOut = o.check ? check : o.format ? formatScene : render;
-  if (!o.frames.empty()) return forFrames(o, carryOut);
   PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
   if (o.listPlugins)
     fmt::print("{}", listPlugins(loader));
   else if (!o.describe.empty())
     fmt::print("{}", o.describe[0] == "all" ? describeAll(loader)
                                             : describePlugin(loader, o.describe[0], o.describe[1]));
+  else if (!o.frames.empty())
+    return forFrames(o, carryOut);
   else
     return carryOut(o, loader);
   return 0;
@@ -57,7 +58,12 @@ int main(int argc, char** argv) {
   CLI::App app("pbrt renders scenes described in the pbrt format.", "pbrt");
   pbrt::defineOptions(app, options);
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
-    pbrt::finishOptions(options);
-    return pbrt::run(options);
+    try {
+      pbrt::finishOptions(options);
+      return pbrt::run(options);
+    } catch (const std::exception& error) {
+      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
+      throw;
+    }
   });
 }

@@ -1,67 +1,106 @@
 #include "progress.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
-#include <chrono>
+#include <algorithm>
 #include <cstdio>
+
+#include "status_line.h"
 
 namespace pbrt {
 
-Progress::Progress(const RenderControl& control, int tiles)
-    : control_(control), tiles_(tiles), terminal_(isatty(STDERR_FILENO) != 0) {
-  thread_ = std::thread([this] { run(); });
+Progress::Progress(ProgressStyle style, const RenderControl& control, int pixels,
+                   std::optional<int> frame)
+    : style_(style), control_(control), pixels_(pixels) {
+  state_.frame = frame;
+  if (style != ProgressStyle::none) thread_ = std::thread([this] { run(); });
 }
 
 Progress::~Progress() {
   {
     const std::lock_guard lock(mutex_);
-    done_ = true;
+    ended_ = true;
   }
   wake_.notify_one();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
+  if (hasStatusLine()) showStatus("");
 }
 
-void Progress::begin(double from, double to, std::optional<double> error) {
+void Progress::begin(const Passes::Pass& pass, std::uint64_t samplesThere) {
   const std::lock_guard lock(mutex_);
-  tilesBefore_ = control_.tilesDone;
-  from_ = from;
-  to_ = to;
-  error_ = error;
+  pass_ = pass;
+  if (!firstSample_) firstSample_ = pass.first;
+  before_ = static_cast<double>(control_.samplesDone) - static_cast<double>(samplesThere);
+  resting_ = false;
+}
+
+void Progress::rest() {
+  const std::lock_guard lock(mutex_);
+  look();
+  resting_ = true;
+  rate_.rest();
+}
+
+void Progress::error(double error) {
+  const std::lock_guard lock(mutex_);
+  state_.error = error;
+}
+
+void Progress::end(Stage stage) {
+  const std::lock_guard lock(mutex_);
+  ProgressState state = look();
+  state.stage = stage;
+  if (stage == Stage::done) state.part = 1, state.remaining = 0;
+  ended_ = true;
+  nextReport_ = 0;
+  if (style_ == ProgressStyle::lines || style_ == ProgressStyle::json) show(state);
 }
 
 void Progress::run() {
   using namespace std::chrono_literals;
-  const auto start = std::chrono::steady_clock::now();
-  const auto seconds = [&] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  };
   std::unique_lock lock(mutex_);
-  while (!wake_.wait_for(lock, 100ms, [this] { return done_; })) show(seconds(), false);
-  show(seconds(), true);
+  while (!wake_.wait_for(lock, 100ms, [this] { return ended_; }))
+    if (firstSample_) show(look());
 }
 
-void Progress::show(double seconds, bool last) {
-  const double ofPass =
-      static_cast<double>(control_.tilesDone - tilesBefore_) / std::max(1, tiles_);
-  const double part = from_ + (to_ - from_) * ofPass;
-  const double raysPerSecond = static_cast<double>(control_.rays) / std::max(seconds, 1e-6);
-  const double remaining = part > 0 ? seconds * (1 - part) / part : 0;
-  std::string text = fmt::format("{:3.0f} %  {:.1f} s elapsed, {:.1f} s remaining, {:.2f} Mrays/s",
-                                 100 * part, seconds, remaining, raysPerSecond / 1e6);
-  if (error_) text += fmt::format(", error about {:.2g}", *error_);
-  if (terminal_) {
-    constexpr int kWidth = 30;
-    const int filled = static_cast<int>(kWidth * part);
-    fmt::print(stderr, "\r[{:#<{}}{:<{}}] {}\x1b[K", "", filled, "", kWidth - filled, text);
-    if (last) fmt::print(stderr, "\r\x1b[K");
-    std::fflush(stderr);
+ProgressState Progress::look() {
+  const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+  const auto taken = static_cast<double>(control_.samplesDone);
+  if (!resting_) rate_.add(seconds, taken);
+  const double whole = pixels_ * (pass_.end - pass_.first);
+  const double there = std::min(taken - before_, whole);
+  const double ofPass = whole > 0 ? there / whole : 0;
+  state_.part = pass_.from + (pass_.to - pass_.from) * ofPass;
+  state_.seconds = seconds;
+  // This pass is the part to - from of the whole.
+  const double later = pass_.to > pass_.from ? whole * (1 - pass_.to) / (pass_.to - pass_.from) : 0;
+  state_.remaining = rate_.remaining(whole - there + later);
+  state_.samplesPerPixel = pass_.first - firstSample_.value_or(0) + there / pixels_;
+  state_.raysPerSecond = static_cast<double>(control_.rays) / std::max(seconds, 1e-3);
+  return state_;
+}
+
+void Progress::show(const ProgressState& state) {
+  if (style_ == ProgressStyle::bar && hasStatusLine()) {
+    showStatus(statusText(state, statusWidth(), true));
     return;
   }
-  // In a log, a line after 1, 2, 4, ... ten-second steps is enough.
-  if (last || seconds < 10.0 * (1 << std::min(linesShown_, 20))) return;
-  ++linesShown_;
-  fmt::print(stderr, "{}\n", text);
+  if (style_ == ProgressStyle::bar) {
+    // In a log, a line after 10, 20, 40, ... seconds is enough.
+    if (nextReport_ == 0) nextReport_ = 10;
+    if (state.seconds < nextReport_) return;
+    nextReport_ = 2 * state.seconds;
+    printError(statusText(state, 200, false));
+    return;
+  }
+  if (state.seconds < nextReport_) return;
+  nextReport_ = state.seconds + 1;
+  const std::string text = style_ == ProgressStyle::json ? jsonLine(state) : jobLines(state);
+  // The jobs of a week would fill a log with the same percentage.
+  std::string percentage = text.substr(0, text.find('\n'));
+  if (percentage == percentage_ && state.stage == Stage::rendering) return;
+  percentage_ = std::move(percentage);
+  // A failure stays with the stream, and is told at the end (runCommand).
+  std::fwrite(text.data(), 1, text.size(), stdout);
+  std::fflush(stdout);
 }
 
 }  // namespace pbrt

@@ -1,42 +1,64 @@
 #pragma once
 // Tells the user how far a render has come.
 
+#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
 
 #include "core/scene/render.h"
+#include "passes.h"
+#include "progress_state.h"
+#include "rate_estimate.h"
 
 namespace pbrt {
 
-// Reports on standard error from construction to destruction: on a terminal one bar that is
-// redrawn, elsewhere a line now and then.
+// Reports while it lives: a bar or a line now and then on standard error, messages for machines on
+// standard output, no more than one a second. A thread of its own does so, which sleeps.
 class Progress {
  public:
-  Progress(const RenderControl& control, int tiles);
+  // `pixels`: how many samples one sample per pixel is. `control` must outlive it.
+  Progress(ProgressStyle style, const RenderControl& control, int pixels,
+           std::optional<int> frame = {});
+  // Takes a bar away. Says nothing more.
   ~Progress();
-  // A pass over all tiles begins, which takes the render from one part of 1 to another. `error`:
-  // the estimate so far, if there is one.
-  void begin(double from, double to, std::optional<double> error);
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
- private:
-  void run();
-  void show(double seconds, bool last);
+  // Rendering begins, or goes on after a rest, with a pass over the picture, of which so many
+  // samples are there: a render that was resumed does not get the credit for them.
+  void begin(const Passes::Pass& pass, std::uint64_t samplesThere = 0);
+  // Nothing is rendered until begin(), such as while pictures are written.
+  void rest();
+  // The estimated error has become known.
+  void error(double error);
+  // The last report: the render is done, or was interrupted.
+  void end(Stage stage);
 
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void run();
+  ProgressState look();  // under the lock
+  void show(const ProgressState& state);
+
+  const ProgressStyle style_;
   const RenderControl& control_;
-  int tiles_;
-  int tilesBefore_ = 0;  // of earlier passes
-  double from_ = 0, to_ = 1;
-  std::optional<double> error_;
-  bool terminal_;
-  int linesShown_ = 0;
-  std::mutex mutex_;
+  const double pixels_;
+  const Clock::time_point start_ = Clock::now();
+
+  std::mutex mutex_;  // of all that follows
   std::condition_variable wake_;
-  bool done_ = false;
-  std::thread thread_;  // last: it uses all the others
+  ProgressState state_;
+  Passes::Pass pass_;
+  std::optional<std::uint32_t> firstSample_;  // of the first pass
+  double before_ = 0;  // samples that this control had taken when the pass began, less those there
+  bool resting_ = true, ended_ = false;
+  RateEstimate rate_;
+  double nextReport_ = 0;   // seconds since the start
+  std::string percentage_;  // as it was reported last
+  std::thread thread_;      // last: it uses all the others
 };
 
 }  // namespace pbrt

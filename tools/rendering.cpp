@@ -4,54 +4,15 @@
 
 #include <cstdio>
 
-#include "core/scene/render.h"
-#include "progress.h"
+#include "core/base/file.h"
 #include "reading.h"
+#include "render_job.h"
 #include "stats.h"
+#include "status_line.h"
 
 namespace pbrt {
 
 namespace {
-
-// The picture after so many samples per pixel and seconds.
-void writePictures(const Options& o, Scene& scene, const Goal& goal, std::uint32_t samples,
-                   double seconds, const std::vector<std::string>& outputs) {
-  const AovSet notStored = o.build.aovs & ~o.aovSet;  // wanted only for the goal
-  Image image = scene.film().image(~notStored);
-  image.attributes = scene.attributes();
-  image.attributes["firstSample"] = static_cast<int>(goal.firstSample);
-  image.attributes["samplesPerPixel"] = static_cast<int>(samples);
-  image.attributes["filterNoise"] = static_cast<float>(scene.film().filterNoise());
-  image.attributes["renderTimeSeconds"] = seconds;
-  image.attributes["seed"] = std::to_string(scene.seed());
-  image.attributes["scene"] = fmt::format("{}", fmt::join(o.files, " "));
-  image.attributes["software"] = std::string("pbrt " PBRT_VERSION);
-  for (const std::string& output : outputs) writeImage(output, image);
-}
-
-// Renders until the goal is reached. Returns the samples that each pixel then has.
-std::uint32_t renderPasses(const Options& o, Scene& scene, const Goal& goal, RenderControl& control,
-                           const std::vector<std::string>& outputs) {
-  std::optional<Progress> progress;
-  if (!o.quiet) progress.emplace(control, scene.film().tiles());
-  const double start = now();
-  double looked = start;
-  std::optional<double> error;
-  Passes passes(goal);
-  while (true) {
-    const Passes::Pass pass = passes.next(now() - start, now() - looked, error);
-    if (pass.empty()) return passes.taken();
-    if (progress) progress->begin(pass.from, pass.to, error);
-    control.firstSample = pass.first;
-    control.endSample = pass.end;
-    scene.integrator().render(scene, scene.sampler(), scene.film(), control);
-    if (goal.error) error = estimatedError(scene.film().image(kVariance));
-    if (goal.interval && now() - looked >= *goal.interval) {
-      writePictures(o, scene, goal, passes.taken(), now() - start, outputs);
-      looked = now();
-    }
-  }
-}
 
 void note(const Options& o, const std::string& message) {
   o.build.report({Severity::note, message});
@@ -61,6 +22,13 @@ void note(const Options& o, const std::string& message) {
 
 int render(const Options& o, PluginLoader& loader) {
   Times t;
+  checkOutputs(o.outputs);
+  checkCheckpoint(o);
+  RenderControl control;
+  control.threads = o.build.threads;
+  Signals signals(control.stop);
+  std::optional<FileDigest> digest;
+  if (writesFilms(o)) digest.emplace();
   SceneReader reader(loader, o.build);
   const auto build = [&](auto step) {
     const double start = now();
@@ -75,25 +43,34 @@ int render(const Options& o, PluginLoader& loader) {
   note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
                       reader.dialect().reason));
   std::vector<std::string> outputs = o.outputs;
-  if (outputs.empty()) outputs = {scene->outputFile()};
-  for (const std::string& output : outputs) checkWritable(output);
+  if (outputs.empty()) {
+    outputs = {scene->outputFile()};
+    checkOutputs(outputs);
+  }
+  RenderKey key;
+  if (digest)
+    key = renderKey(*scene, reader.dialect().dialect, o.build.permissive, loader, digest->value());
   t.ready = now();
 
-  RenderControl control;
-  control.threads = o.build.threads;
-  const Goal goal = goalOf(o, scene->sampler().samplesPerPixel());
-  const std::uint32_t samples = renderPasses(o, *scene, goal, control, outputs);
+  signals.catchInterruptions();
+  RenderJob job(o, *scene, std::move(key), outputs, control, signals);
+  if (o.resume) job.resume();
+  const bool whole = job.run();
   t.rendered = now();
   if (control.badSamples)
     o.build.report({Severity::warning,
                     fmt::format("{} samples were not a number or infinite; they count as black",
                                 control.badSamples.load())});
-  writePictures(o, *scene, goal, samples, t.rendered - t.ready, outputs);
+  const bool written = job.finish();
   t.written = now();
-  if (!o.quiet)
-    for (const std::string& output : outputs) fmt::print("{}\n", output);
+  if (written && !o.quiet)
+    for (const std::string& output : outputs) fmt::print("{}", pictureLine(o.progress, output));
+  const std::uint32_t samples = job.samples();
+  const std::string interruption = whole ? "" : job.interruption();
   if (o.stats) fmt::print("{}", stats(std::move(scene), loader, control, samples, t));
-  return judge(o);
+  if (whole) return judge(o);
+  printError(interruption);
+  return kInterrupted;
 }
 
 }  // namespace pbrt

@@ -47,6 +47,13 @@ class BlockedArray {
         stride_(size + 2 * apron),
         cells_(std::size_t(across_) * down_ * stride_ * stride_) {}
 
+  // What such an array takes of memory.
+  static double bytes(int width, int height, int size, int apron = 0) {
+    const double stride = size + 2 * apron;
+    return std::ceil(double(width) / size) * std::ceil(double(height) / size) * stride * stride *
+           sizeof(T);
+  }
+
   int size() const { return size_; }
   int apron() const { return apron_; }
   int stride() const { return stride_; }  // cells in a row of a block with its apron

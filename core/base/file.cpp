@@ -17,13 +17,9 @@
 
 #include "core/base/error.h"
 #include "core/base/hash.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
-
-std::size_t halfOfMemory() {
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) *
-         static_cast<std::size_t>(sysconf(_SC_PAGESIZE)) / 2;
-}
 
 namespace {
 
@@ -56,6 +52,10 @@ FileDigest::FileDigest() {
 FileDigest::~FileDigest() {
   const std::lock_guard lock(digesting);
   digest = nullptr;
+}
+
+std::string reasonOf(const std::exception& error) {
+  return dynamic_cast<const std::bad_alloc*>(&error) != nullptr ? "out of memory" : error.what();
 }
 
 std::string readFile(const std::filesystem::path& path, FileKind allowed, std::size_t longest) {

@@ -2,6 +2,7 @@
 // How files that a scene names are read: the one place that opens them, for reading alone.
 
 #include <cstdint>
+#include <exception>
 #include <filesystem>
 #include <string>
 
@@ -15,12 +16,12 @@ enum class FileKind : std::uint8_t { regular, any };
 // numbers of a text can be counted in an int, and a gzipped file can state its true length.
 constexpr std::size_t kLongestFile = std::size_t{4} << 30;
 
-// Bytes of this machine: no file, nor the picture in it, may take more.
-std::size_t halfOfMemory();
+// What an exception says, for messages: that memory is short has no words of its own.
+std::string reasonOf(const std::exception& error);
 
 // All bytes of a file, unpacked if it is gzipped (told by its first bytes; RFC 1952). Throws Error,
 // Failure::io: it cannot be opened or read, is of the wrong kind, is damaged, or would be longer
-// than `longest` or half of this machine's memory, so that a few packed bytes cannot fill it.
+// than `longest` or halfOfMemory(), so that a few packed bytes cannot fill it.
 std::string readFile(const std::filesystem::path& path, FileKind allowed = FileKind::regular,
                      std::size_t longest = kLongestFile);
 

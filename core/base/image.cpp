@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/file.h"
 #include "core/base/image_format.h"
+#include "core/base/memory_limit.h"
 #include "core/base/replacement.h"
 
 namespace fs = std::filesystem;
@@ -94,7 +95,7 @@ Image readImage(const fs::path& file) {
   try {
     return decode(bytes);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("cannot read {}: {}", file.string(), error.what()), Failure::io);
+    throw Error(fmt::format("cannot read {}: {}", file.string(), reasonOf(error)), Failure::io);
   }
 }
 

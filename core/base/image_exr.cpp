@@ -204,7 +204,7 @@ Image readExr(const std::filesystem::path& path) try {
   throw;
 } catch (const std::exception& error) {
   // OpenEXR names the file in most of its messages, but not in all.
-  const std::string what = error.what();
+  const std::string what = reasonOf(error);
   const std::string name = path.string();
   throw Error(
       what.find(name) != std::string::npos ? what : fmt::format("cannot read {}: {}", name, what),

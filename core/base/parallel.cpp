@@ -1,10 +1,23 @@
 #include "core/base/parallel.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <fstream>
+#include <latch>
+#include <limits>
+#include <thread>
+#include <vector>
+
+#include "core/base/control_groups.h"
+#include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace pbrt {
 
@@ -22,14 +35,63 @@ void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
   static_cast<void>(ended.load(std::memory_order_acquire));
 }
 
-int defaultThreads() {
-  return tbb::info::default_concurrency();
+int controlGroupCores(const std::filesystem::path& root) {
+  int least = std::numeric_limits<int>::max();
+  const auto allow = [&](double quota, double period) {
+    const double cores = std::ceil(quota / period);  // a quarter of a core needs a thread, too
+    if (cores >= 1 && cores < least) least = static_cast<int>(cores);
+  };
+  for (const std::filesystem::path& group : controlGroups("cpu", root)) {
+    // Microseconds in each period. Without a limit there is a word in place of the first number in
+    // version 2, -1 in version 1.
+    double quota = 0, period = 0;
+    if (std::ifstream(group / "cpu.max") >> quota >> period) allow(quota, period);
+    if (std::ifstream(group / "cpu.cfs_quota_us") >> quota &&
+        std::ifstream(group / "cpu.cfs_period_us") >> period)
+      allow(quota, period);
+  }
+  return least;
 }
 
+int defaultThreads() {
+  static const int threads = std::min(tbb::info::default_concurrency(), controlGroupCores());
+  return threads;
+}
+
+namespace {
+
+// oneTBB ends the process if it cannot start a thread, and starts them when it first needs them,
+// when memory may be short. So as many are tried first, all at once, and then oneTBB's are started,
+// which it keeps.
+void startThreads(int n) {
+  static std::atomic<int> started = 1;  // the one that runs here
+  if (n <= started) return;
+  std::latch end(1);
+  std::vector<std::thread> trial;
+  const auto join = [&] {
+    end.count_down();
+    for (std::thread& thread : trial) thread.join();
+  };
+  try {
+    for (int i = 1; i < n; ++i) trial.emplace_back([&end] { end.wait(); });
+  } catch (const std::exception& error) {  // std::system_error, or no memory for one
+    join();
+    throw Error(fmt::format("the system lets this process start {} threads, not {}: {}",
+                            trial.size() + 1, n, reasonOf(error)),
+                Failure::io);
+  }
+  join();
+  tbb::task_arena(n).execute([n] { tbb::parallel_for(0, 2 * n, [](int) {}); });
+  started = n;
+}
+
+}  // namespace
+
 ThreadLimit::ThreadLimit(int threads) {
-  if (threads > 0)
-    limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
-                                                   static_cast<std::size_t>(threads));
+  const int n = threads > 0 ? threads : defaultThreads();
+  limit_ = std::make_shared<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                                 static_cast<std::size_t>(n));
+  startThreads(n);
 }
 
 }  // namespace pbrt

@@ -2,6 +2,7 @@
 // Work on all cores. parallel.cpp and the render loop are the only users of oneTBB.
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 
@@ -11,10 +12,17 @@ namespace pbrt {
 // returned. An exception of a body comes out of here; the bodies not yet begun are then skipped.
 void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body);
 
-// How many threads the process may use.
+// How many threads the process may use: one for each core of its affinity mask (taskset, cpusets),
+// but no more than the time of so many cores that its control groups leave to it (containers).
 int defaultThreads();
 
-// While it lives, no more than this many threads work; 0: as many as the process may use.
+// Of how many cores the control groups of this process allow the time, rounded up; the largest
+// number if they allow all. `root`: where /proc and /sys/fs/cgroup are.
+int controlGroupCores(const std::filesystem::path& root = "/");
+
+// While it lives, no more than this many threads work; 0: defaultThreads(). More than there are
+// cores are so many all the same. Where several live, the least counts. The threads are started at
+// once, while there is room for them: throws Error, Failure::io, if the system refuses one.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

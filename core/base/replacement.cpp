@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "core/base/error.h"
+#include "core/base/file.h"
 
 namespace fs = std::filesystem;
 
@@ -66,7 +67,7 @@ template <class Work>
 void named(const fs::path& file, Work work) try {
   work();
 } catch (const std::exception& error) {
-  throw Error(fmt::format("cannot write {}: {}", file.string(), error.what()), Failure::io);
+  throw Error(fmt::format("cannot write {}: {}", file.string(), reasonOf(error)), Failure::io);
 }
 
 }  // namespace

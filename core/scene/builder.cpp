@@ -66,13 +66,17 @@ void SceneBuilder::handle(Directive&& d) {
     ended_ = true;
     return;
   }
-  factory_.attempt([&] {
-    try {
-      carryOut(std::move(d));
-    } catch (const Error& error) {
-      throw error.at(d.where);
-    }
-  });
+  try {
+    factory_.attempt([&] {
+      try {
+        carryOut(std::move(d));
+      } catch (const Error& error) {
+        throw error.at(d.where);
+      }
+    });
+  } catch (const std::bad_alloc&) {  // never passed over
+    throw Error(d.where, "out of memory");
+  }
 }
 
 void SceneBuilder::carryOut(Directive&& d) {

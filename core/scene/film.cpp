@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/base/error.h"
+#include "core/base/memory_limit.h"
 
 namespace pbrt {
 
@@ -62,18 +63,30 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
   reach_ = glm::max(Point2i(glm::ceil(radius_ - 0.5F)), 0);
   sampled_ = wholeBlocks({crop.lo - reach_, crop.hi + reach_}, {-reach_, resolution + reach_},
                          settings.block);
-  try {
-    const Point2i size(sampled_.width(), sampled_.height());
-    picture_ = {size.x, size.y, kTile, std::max(reach_.x, reach_.y)};
-    if (stores(kVariance)) noise_ = {size.x, size.y, kTile, picture_.apron()};
-    if (stores(kSampleCount)) samples_ = {size.x, size.y, kTile};
-    if (stores(kOfSurface & ~kOfDetail)) surface_ = {size.x, size.y, kTile};
-    if (stores(kOfDetail)) detail_ = {size.x, size.y, kTile};
-  } catch (const std::exception&) {
-    throw Error(
-        fmt::format("not enough memory for a film of {} x {} pixels", crop.width(), crop.height()));
-  }
+  makeSums();
   makeTable(filter);
+}
+
+void Film::makeSums() {
+  const Point2i size(sampled_.width(), sampled_.height());
+  const int apron = std::max(reach_.x, reach_.y);
+  const auto each = [&](const auto& visit) {
+    visit(picture_, apron);
+    if (stores(kVariance)) visit(noise_, apron);
+    if (stores(kSampleCount)) visit(samples_, 0);
+    if (stores(kOfSurface & ~kOfDetail)) visit(surface_, 0);
+    if (stores(kOfDetail)) visit(detail_, 0);
+  };
+  // With the picture that is made of them in the end: it must not fail then.
+  double bytes = 4.0 * sizeof(float) * crop_.width() * crop_.height();
+  each([&](const auto& sums, int border) { bytes += sums.bytes(size.x, size.y, kTile, border); });
+  const std::string what = fmt::format("a film of {} x {} pixels", crop_.width(), crop_.height());
+  checkMemory(bytes, what);
+  try {
+    each([&](auto& sums, int border) { sums = {size.x, size.y, kTile, border}; });
+  } catch (const std::exception&) {
+    throw Error("not enough memory for " + what);
+  }
 }
 
 void Film::makeTable(const Filter& filter) {

@@ -65,6 +65,7 @@ class Film {
  private:
   static constexpr int kTable = 32;  // filter table, cells per radius
 
+  void makeSums();
   void makeTable(const Filter& filter);
   // Where the tile's cells begin: the pixel of the upper left one of its border.
   Point2i corner(int tile) const { return sampled_.lo + picture_.corner(tile) - picture_.apron(); }

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "core/base/image.h"
@@ -71,10 +73,10 @@ class FilmWriter {
 };
 
 // A whole film. `info` gives what the film does not know itself: all but resolution, window, aovs
-// and origin.
+// and origin; endSample follows from `reached`, which comes to be empty if all tiles are equal.
 void writeFilm(const std::filesystem::path& file, const Film& film, FilmInfo info);
-// Adds what a file holds to a film of the same window and AOVs, which must be empty. The caller has
-// compared the keys.
+// Adds what a file holds to a film of the same window and AOVs, which must be empty and is not to
+// be used after an error: damage may show at the end. The caller has compared the keys.
 FilmInfo readFilm(const std::filesystem::path& file, Film& film);
 
 }  // namespace pbrt

@@ -1,9 +1,6 @@
 // Everything that goes wrong at the command: one clear line with its place, the documented exit
 // code, no crash, no file left behind.
 
-#include <sys/mount.h>
-#include <unistd.h>
-
 #include <regex>
 
 #include "tests/command.h"
@@ -263,25 +260,6 @@ TEST(BadInput, StandardInputIsNamedInErrors) {
   const Outcome outcome = folder.command("echo 'Shpae' | " + Folder::program() + " -");
   EXPECT_EQ(outcome.code, 3);
   EXPECT_NE(outcome.err.find("<stdin>:1:1: error"), std::string::npos) << outcome.err;
-}
-
-TEST(BadInput, AFullDiskLeavesTheOldPicture) {
-  const Folder folder;
-  const std::string disk = (folder.path() / "disk").string();
-  std::filesystem::create_directory(disk);
-  if (mount("tmpfs", disk.c_str(), "tmpfs", 0, "size=64k") != 0)
-    GTEST_SKIP() << "only root can make a small disk";
-  folder.write("scene.pbrt", world(kSphere));
-  folder.write("disk/out.exr", "the old picture");
-  folder.command("dd if=/dev/zero of=disk/fill bs=1k count=1000");
-  const Outcome outcome = folder.pbrt("--outfile disk/out.exr scene.pbrt");
-  const std::string kept = contents(folder.path() / "disk/out.exr");
-  const auto files = std::distance(std::filesystem::directory_iterator(disk), {});
-  umount(disk.c_str());
-  EXPECT_EQ(outcome.code, 4);
-  EXPECT_NE(outcome.err.find("out.exr"), std::string::npos) << outcome.err;
-  EXPECT_EQ(kept, "the old picture");
-  EXPECT_EQ(files, 2);
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ Image readJpeg(const std::filesystem::path& file) {
   try {
     return decode(bytes);
   } catch (const std::exception& error) {
-    throw Error(fmt::format("cannot read {}: {}", file.string(), error.what()), Failure::io);
+    throw Error(fmt::format("cannot read {}: {}", file.string(), reasonOf(error)), Failure::io);
   }
 }
 

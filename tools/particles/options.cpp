@@ -5,7 +5,7 @@
 #include <charconv>
 
 #include "core/base/error.h"
-#include "core/base/file.h"
+#include "core/base/memory_limit.h"
 #include "tools/command.h"
 #include "tools/particles/motion/sequence.h"
 

@@ -1,0 +1,20 @@
+#include "core/scene/picture_attributes.h"
+
+#include <algorithm>
+
+namespace pbrt {
+
+std::map<std::string, ImageAttribute> pictureAttributes(const FilmInfo& info) {
+  const auto samplesTo = [&](std::uint32_t end) {
+    return static_cast<int>(end - info.firstSample);
+  };
+  auto attributes = info.attributes;
+  attributes["firstSample"] = static_cast<int>(info.firstSample);
+  attributes["samplesPerPixel"] = samplesTo(info.endSample);
+  if (info.interrupted())
+    attributes["mostSamplesPerPixel"] = samplesTo(*std::ranges::max_element(info.reached));
+  attributes["renderTimeSeconds"] = info.seconds;
+  return attributes;
+}
+
+}  // namespace pbrt

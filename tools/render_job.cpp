@@ -1,0 +1,278 @@
+#include "render_job.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "core/base/replacement.h"
+#include "core/scene/picture_attributes.h"
+#include "stats.h"
+#include "status_line.h"
+
+namespace fs = std::filesystem;
+
+namespace pbrt {
+
+namespace {
+
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+bool isFilm(const fs::path& file) {
+  return file.extension() == ".film";
+}
+
+// As --pixelbounds has it.
+std::string inWords(const Bounds2i& window) {
+  return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
+}
+
+void note(const Options& o, const std::string& message) {
+  if (!o.quiet) printError(format({Severity::note, message}));
+}
+
+}  // namespace
+
+void checkOutputs(const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    if (isFilm(output))
+      checkReplaceable(output);
+    else
+      checkWritable(output);
+  }
+}
+
+void checkCheckpoint(const Options& o) {
+  if (o.checkpoint.empty()) return;
+  if (!o.resume && fs::exists(o.checkpoint))
+    throw Error(
+        fmt::format("{} is there already: go on from it with --resume, or remove it", o.checkpoint),
+        Failure::io);
+  checkReplaceable(o.checkpoint);
+}
+
+bool writesFilms(const Options& o) {
+  return !o.checkpoint.empty() || std::ranges::any_of(o.outputs, isFilm);
+}
+
+RenderJob::RenderJob(const Options& o, Scene& scene, RenderKey key,
+                     std::vector<std::string> outputs, RenderControl& control, Signals& signals)
+    : o_(o),
+      scene_(scene),
+      goal_(goalOf(o, scene.sampler().samplesPerPixel())),
+      key_(std::move(key)),
+      outputs_(std::move(outputs)),
+      control_(control),
+      signals_(signals),
+      start_(now()),
+      due_(start_ + o.checkpointEvery) {
+  control_.reached.assign(static_cast<std::size_t>(scene.film().tiles()), goal_.firstSample);
+}
+
+void RenderJob::resume() {
+  if (!fs::exists(o_.checkpoint)) {
+    note(o_, fmt::format("{} is not there yet: the render begins", o_.checkpoint));
+    return;
+  }
+  const auto refuse = [&](const std::string& reason) {
+    throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
+  };
+  {
+    const FilmReader reader(o_.checkpoint);
+    const FilmInfo& found = reader.info();
+    const std::string differs = difference(key_, found.key);
+    if (!differs.empty()) refuse(differs);
+    if (found.window != scene_.film().crop())
+      refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
+                         inWords(scene_.film().crop())));
+    if (found.firstSample != goal_.firstSample)
+      refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
+    const std::uint32_t most =
+        found.interrupted() ? *std::ranges::max_element(found.reached) : found.endSample;
+    if (most > goal_.endSample)
+      refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
+                         most - goal_.firstSample, goal_.endSample - goal_.firstSample));
+  }
+  const FilmInfo found = readFilm(o_.checkpoint, scene_.film());
+  if (!found.interrupted())
+    std::ranges::fill(control_.reached, found.endSample);
+  else if (found.reached.size() == control_.reached.size())
+    control_.reached = found.reached;
+  else
+    refuse("its tiles are not those of this film");
+  control_.badSamples = found.badSamples;
+  start_ -= found.seconds;
+  // Planned by the error alone, passes end where those of a render did that was not interrupted.
+  // PASSEND
+  note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
+}
+
+bool RenderJob::run() {
+  const Bounds2i& pixels = scene_.film().sampledPixels();
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), o_.frame);
+  double looked = now();
+  Passes passes(goal_, least(), std::max(most(), passEnd_));
+  while (true) {
+    std::optional<double> error;
+    if (goal_.error && samples() > 0 && least() == most()) {
+      error = estimatedError(scene_.film().image(kVariance));
+      progress.error(*error);
+    }
+    const Passes::Pass pass = passes.next(seconds(), now() - looked, error);
+    if (pass.empty()) break;
+    if (!renderPass(pass, progress)) {
+      progress.end(Stage::interrupted);
+      return false;
+    }
+    if (goal_.interval && now() - looked >= *goal_.interval) {
+      writeSoFar();
+      looked = now();
+    }
+  }
+  progress.end(Stage::done);
+  return whole_ = true;
+}
+
+// Returns false if a signal asks the render to end before the pass does.
+bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
+  control_.firstSample = goal_.firstSample;
+  control_.endSample = passEnd_ = pass.end;
+  while (least() < pass.end) {
+    control_.stop = false;  // before its reasons are looked for: those that come later set it again
+    if (Signals::interrupted()) return false;
+    const bool asked = Signals::takeRequest();
+    if (saves() && (asked || now() >= due_)) {
+      tryTo([&] { saveCheckpoint(); });
+      due_ = now() + o_.checkpointEvery;
+    } else if (asked) {
+      writeSoFar();
+    }
+    signals_.setTimer(saves() ? due_ - now() : kNever);
+    progress.begin(pass, samplesSince(pass.first));
+    scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    progress.rest();
+  }
+  return true;
+}
+
+bool RenderJob::finish() {
+  signals_.setTimer(kNever);
+  std::optional<Error> unsaved;
+  if (saves() && control_.samplesDone > 0) try {
+      saveCheckpoint();
+    } catch (const Error& error) {
+      unsaved = error;
+    }
+  try {
+    if (mayWrite()) writeOutputs();
+  } catch (const Error& error) {
+    if (!saves() || unsaved) throw;
+    std::vector<Diagnostic> diagnostics = error.diagnostics();
+    diagnostics.push_back(
+        {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
+    throw Error(std::move(diagnostics), error.failure());
+  }
+  if (unsaved) throw *unsaved;
+  return mayWrite();
+}
+
+bool RenderJob::mayWrite() const {
+  return most() > goal_.firstSample && (whole_ || !o_.frame);
+}
+
+void RenderJob::saveCheckpoint() {
+  writeFilm(o_.checkpoint, scene_.film(), info());
+}
+
+void RenderJob::writeOutputs() const {
+  const FilmInfo info = this->info();
+  std::optional<Image> image;
+  std::optional<Error> failure;  // the first; the others are written all the same
+  for (const std::string& output : outputs_) try {
+      if (isFilm(output)) {
+        writeFilm(output, scene_.film(), info);
+        continue;
+      }
+      if (!image) {
+        const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
+        image = scene_.film().image(~notStored);
+        image->attributes = pictureAttributes(info);
+      }
+      writeImage(output, *image);
+    } catch (const Error& error) {
+      if (!failure) failure = error;
+    }
+  if (failure) throw *failure;
+}
+
+void RenderJob::writeSoFar() const {
+  if (mayWrite()) tryTo([&] { writeOutputs(); });
+}
+
+// Errors become warnings: it is tried again later.
+void RenderJob::tryTo(const std::function<void()>& write) const {
+  try {
+    write();
+  } catch (const Error& error) {
+    for (Diagnostic d : error.diagnostics()) {
+      d.severity = Severity::warning;
+      o_.build.report(d);
+    }
+  }
+}
+
+FilmInfo RenderJob::info() const {
+  FilmInfo info;
+  info.key = key_;
+  info.firstSample = goal_.firstSample;
+  info.endSample = least();
+  if (most() > least()) info.reached = control_.reached;
+  info.badSamples = control_.badSamples;
+  info.seconds = seconds();
+  info.attributes = scene_.attributes();
+  info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());
+  info.attributes["seed"] = std::to_string(scene_.seed());
+  info.attributes["scene"] = fmt::format("{}", fmt::join(o_.files, " "));
+  info.attributes["software"] = std::string("pbrt " PBRT_VERSION);
+  return info;
+}
+
+std::string RenderJob::progress() const {
+  const std::uint32_t most = this->most() - goal_.firstSample;
+  std::string text =
+      samples() < most ? fmt::format("{} to {}", samples(), most) : std::to_string(most);
+  if (goal_.endSample < kMostSamples)
+    text += fmt::format(" of {}", goal_.endSample - goal_.firstSample);
+  return text + " samples per pixel";
+}
+
+std::string RenderJob::interruption() const {
+  const auto film = std::ranges::find_if(outputs_, isFilm);
+  return fmt::format("interrupted at {}; {}", progress(),
+                     !o_.checkpoint.empty() ? "go on with --resume"
+                     : film != outputs_.end() && mayWrite()
+                         ? fmt::format("go on with --checkpoint {} --resume", *film)
+                         : "without --checkpoint, it cannot be continued");
+}
+
+std::uint64_t RenderJob::samplesSince(std::uint32_t first) const {
+  std::uint64_t sum = 0;
+  for (int tile = 0; tile < scene_.film().tiles(); ++tile) {
+    const Bounds2i pixels = scene_.film().tilePixels(tile);
+    sum += (control_.reached[static_cast<std::size_t>(tile)] - first) *
+           static_cast<std::uint64_t>(pixels.width() * pixels.height());
+  }
+  return sum;
+}
+
+std::uint32_t RenderJob::least() const {
+  return std::ranges::min(control_.reached);
+}
+std::uint32_t RenderJob::most() const {
+  return std::ranges::max(control_.reached);
+}
+double RenderJob::seconds() const {
+  return now() - start_;
+}
+
+}  // namespace pbrt
