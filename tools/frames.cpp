@@ -8,6 +8,7 @@
 #include "command.h"
 #include "core/base/file.h"
 #include "core/base/numbered_name.h"
+#include "core/plugin/culprit.h"
 #include "rendering.h"
 #include "status_line.h"
 
@@ -86,16 +87,22 @@ struct Outcome {
 };
 
 Outcome carryOut(const Options& o, const Command& command) {
-  try {
-    PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
-    const int code = command(o, loader);
-    return {code, code == kInterrupted};
-  } catch (const Error& error) {
+  const auto fail = [&](const Error& error) {
     fmt::print("{}", failureLine(o.progress, error.what()));
-    const int code = tell(error);
-    return {code, error.failure() == Failure::io && !sceneIsUnreadable(o)};
+    return tell(error);
+  };
+  try {
+    try {
+      PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
+      const int code = command(o, loader);
+      return {code, code == kInterrupted};
+    } catch (...) {
+      std::rethrow_exception(asError());
+    }
+  } catch (const Error& error) {
+    return {fail(error), error.failure() == Failure::io && !sceneIsUnreadable(o)};
   } catch (const std::bad_alloc&) {
-    return {tell(Error("out of memory"))};
+    return {fail(Error("out of memory"))};
   }
 }
 

@@ -120,6 +120,8 @@ void defineOptions(CLI::App& app, Options& o) {
          "lines (messages of Open Job Description on standard output), json (there, an object a "
          "line), none; auto: bar, or none with --quiet")
       ->check(CLI::IsMember(&kProgressStyles));
+  app.add_flag("--progress-error", o.goal.showsError,
+               "Tell the relative error, as --target-error estimates it, about every 10 s");
   auto* stats = app.add_flag("--stats", o.stats,
                              "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
@@ -142,6 +144,8 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
+  app.add_flag("--strict", o.strict,
+               "End at the first sample that fails, instead of counting it as black");
   app.footer(
       "SIGUSR1: save the checkpoint (without one: the picture so far) and go on.\n"
       "SIGTERM, SIGINT, SIGHUP: save both and end; a second SIGINT: end at once.\n"
@@ -182,7 +186,7 @@ void finishOptions(Options& o) {
   if (!o.samples.empty()) readRange(o.samples, o.goal);
   for (const std::string& name : o.aovs) o.aovSet |= *aovByName(name);
   o.build.aovs = o.aovSet;
-  if (o.goal.error) o.build.aovs |= kVariance;
+  if (o.goal.error || o.goal.showsError) o.build.aovs |= kVariance;
   if (!o.cropWindow.empty()) {
     o.build.cropWindow.emplace();
     std::copy(o.cropWindow.begin(), o.cropWindow.end(), o.build.cropWindow->begin());

@@ -33,6 +33,7 @@ struct Options {
   bool quiet = false;
   ProgressStyle progress = ProgressStyle::automatic;  // finishOptions() decides
   bool stats = false;
+  bool strict = false;
   std::string logLevel = "warning";
   bool check = false;
   bool format = false;

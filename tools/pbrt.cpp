@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include "command.h"
+#include "core/base/file.h"
 #include "core/parse/format.h"
+#include "core/plugin/culprit.h"
+#include "crash.h"
 #include "frames.h"
 #include "listing.h"
 #include "options.h"
@@ -60,10 +63,11 @@ int main(int argc, char** argv) {
   return pbrt::runCommand(app, pbrt::words(argc, argv), [&] {
     try {
       pbrt::finishOptions(options);
+      pbrt::tellOfCrashes();
       return pbrt::run(options);
-    } catch (const std::exception& error) {
-      fmt::print("{}", pbrt::failureLine(options.progress, error.what()));
-      throw;
+    } catch (...) {
+      fmt::print("{}", pbrt::failureLine(options.progress, pbrt::whatWasThrown()));
+      std::rethrow_exception(pbrt::asError());
     }
   });
 }

@@ -7,6 +7,7 @@
 
 #include "core/base/replacement.h"
 #include "core/scene/picture_attributes.h"
+#include "crash.h"
 #include "stats.h"
 #include "status_line.h"
 
@@ -77,33 +78,29 @@ void RenderJob::resume() {
   const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
   };
-  {
-    const FilmReader reader(o_.checkpoint);
-    const FilmInfo& found = reader.info();
-    const std::string differs = difference(key_, found.key);
-    if (!differs.empty()) refuse(differs);
-    if (found.window != scene_.film().crop())
-      refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
-                         inWords(scene_.film().crop())));
-    if (found.firstSample != goal_.firstSample)
-      refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
-    const std::uint32_t most =
-        found.interrupted() ? *std::ranges::max_element(found.reached) : found.endSample;
-    if (most > goal_.endSample)
-      refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
-                         most - goal_.firstSample, goal_.endSample - goal_.firstSample));
-  }
-  const FilmInfo found = readFilm(o_.checkpoint, scene_.film());
-  if (!found.interrupted())
-    std::ranges::fill(control_.reached, found.endSample);
-  else if (found.reached.size() == control_.reached.size())
+  const FilmInfo found = FilmReader(o_.checkpoint).info();
+  const std::uint32_t most =
+      found.interrupted() ? std::ranges::max(found.reached) : found.endSample;
+  const std::string differs = difference(key_, found.key);
+  if (!differs.empty()) refuse(differs);
+  if (found.window != scene_.film().crop())
+    refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
+                       inWords(scene_.film().crop())));
+  if (found.firstSample != goal_.firstSample)
+    refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
+  if (most > goal_.endSample)
+    refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
+                       most - goal_.firstSample, goal_.endSample - goal_.firstSample));
+  readFilm(o_.checkpoint, scene_.film());
+  if (found.interrupted())
     control_.reached = found.reached;
   else
-    refuse("its tiles are not those of this film");
-  control_.badSamples = found.badSamples;
+    std::ranges::fill(control_.reached, found.endSample);
+  if (goal_.error) passEnd_ = std::min(found.passEnd, goal_.endSample);
+  control_.faults.addEarlier(found.badSamples);
+  if (o_.strict && found.badSamples > 0) refuse(describe(control_.faults));
+  adviseToResume();
   start_ -= found.seconds;
-  // Planned by the error alone, passes end where those of a render did that was not interrupted.
-  // PASSEND
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
 
@@ -114,7 +111,7 @@ bool RenderJob::run() {
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
     std::optional<double> error;
-    if (goal_.error && samples() > 0 && least() == most()) {
+    if ((goal_.error || goal_.showsError) && samples() > 0 && least() == most()) {
       error = estimatedError(scene_.film().image(kVariance));
       progress.error(*error);
     }
@@ -149,7 +146,12 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
-    scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    try {
+      scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    } catch (const Error&) {  // which leaves a film that can be gone on with
+      if (saves() && control_.samplesDone > 0) tryTo([&] { saveCheckpoint(); });
+      throw;
+    }
     progress.rest();
   }
   return true;
@@ -182,6 +184,11 @@ bool RenderJob::mayWrite() const {
 
 void RenderJob::saveCheckpoint() {
   writeFilm(o_.checkpoint, scene_.film(), info());
+  adviseToResume();
+}
+
+void RenderJob::adviseToResume() const {
+  adviseAfterCrash(o_.checkpoint + " holds the samples so far: go on with --resume");
 }
 
 void RenderJob::writeOutputs() const {
@@ -227,7 +234,8 @@ FilmInfo RenderJob::info() const {
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
-  info.badSamples = control_.badSamples;
+  info.passEnd = goal_.error ? passEnd_ : 0;
+  info.badSamples = control_.faults.count();
   info.seconds = seconds();
   info.attributes = scene_.attributes();
   info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());

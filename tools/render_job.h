@@ -46,6 +46,7 @@ class RenderJob {
  private:
   bool renderPass(const Passes::Pass& pass, Progress& progress);
   void saveCheckpoint();
+  void adviseToResume() const;
   void writeOutputs() const;
   void writeSoFar() const;
   void tryTo(const std::function<void()>& write) const;

@@ -19,6 +19,9 @@ RenderKey renderKey(const Scene& scene, Dialect dialect, bool permissive,
   for (const std::string_view name : aovNames())
     if (film.stores(*aovByName(name))) stored.push_back(name);
   if (!stored.empty()) settings += fmt::format(", stored: {}", fmt::join(stored, " "));
+  const auto& attributes = scene.attributes();
+  if (const auto time = attributes.find("sceneTime"); time != attributes.end())
+    settings += fmt::format(", at {} s", std::get<double>(time->second));
   if (permissive) settings += ", permissive";
   return {files, plugins.programs(), scene.seed(), scene.sampler().samplesPerPixel(), settings};
 }

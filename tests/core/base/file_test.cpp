@@ -137,5 +137,23 @@ TEST_F(ReadFile, BelievesNoSizeThatAFileStates) {
   EXPECT_EQ(reasonOf(write("a", file)), "the packed data are damaged");
 }
 
+TEST_F(ReadFile, IsHashedWhileSomebodyAsks) {
+  const auto digestOf = [&](const std::vector<std::string>& texts) {
+    const FileDigest digest;
+    for (const std::string& text : texts) readFile(write("a", text));
+    return digest.value();
+  };
+  EXPECT_EQ(digestOf({}), 0U);
+  const std::uint64_t all = digestOf({"one", "two"});
+  readFile(write("a", "three"));  // nobody asks
+  EXPECT_EQ(digestOf({"one", "two"}), all);
+  for (const auto& other : std::vector<std::vector<std::string>>{
+           {"one"}, {"two", "one"}, {"onetwo"}, {"one", "two", ""}, {"on", "etwo"}, {"One", "two"}})
+    EXPECT_NE(digestOf(other), all);
+  EXPECT_EQ(digestOf({packed("one"), packed("two")}), all) << "what was read counts";
+  const FileDigest one;
+  EXPECT_THROW(FileDigest(), std::logic_error);
+}
+
 }  // namespace
 }  // namespace pbrt

@@ -2,13 +2,23 @@
 
 #include "core/base/replacement.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <iostream>
+#include <thread>
 
 #include "core/base/error.h"
+#include "core/base/rng.h"
 #include "tests/command.h"
 
 namespace pbrt {
@@ -89,27 +99,6 @@ TEST(CheckReplaceable, LeavesNothing) {
   EXPECT_EQ(folder.files(), 1U);
 }
 
-TEST(Replacement, TakesThePlaceOnlyWhenItIsDone) {
-  const test::Folder folder;
-  folder.write("file", "old");
-  {
-    Replacement abandoned(folder.path() / "file");
-    std::fputs("half", abandoned.stream());
-  }
-  EXPECT_EQ(contents(folder.path() / "file"), "old");
-  EXPECT_EQ(folder.files(), 1U);
-  Replacement a(folder.path() / "file"), b(folder.path() / "file");
-  std::fputs("a", a.stream());
-  std::fputs("b", b.stream());
-  std::fflush(a.stream());
-  EXPECT_EQ(contents(folder.path() / "file"), "old");
-  b.commit();
-  EXPECT_EQ(contents(folder.path() / "file"), "b");
-  a.commit();
-  EXPECT_EQ(contents(folder.path() / "file"), "a") << "two at a time do not share a file";
-  EXPECT_EQ(folder.files(), 1U);
-}
-
 TEST(WriteFile, ThatDoesNotFitLeavesTheOldFile) {
   const test::Folder folder;
   folder.write("file", "old");
@@ -125,6 +114,142 @@ TEST(WriteFile, ThatDoesNotFitLeavesTheOldFile) {
   std::signal(SIGXFSZ, handler);
   EXPECT_EQ(contents(folder.path() / "file"), "old");
   EXPECT_EQ(folder.files(), 1U);
+}
+
+// Whether the new file has no name while it is written. As NFS cannot have that, some tests are
+// run with both, in a process of their own where need be.
+enum class Kind : std::uint8_t { nameless, named };
+
+// From now on O_TMPFILE is refused to this process, as by a file system that does not have it.
+bool refuseNameless() {
+  constexpr auto kArgument = offsetof(seccomp_data, args) + 2 * sizeof(std::uint64_t);
+  sock_filter program[] = {
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+      BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_openat, 0, 3),
+      BPF_STMT(BPF_LD | BPF_W | BPF_ABS, kArgument),
+      BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, O_TMPFILE & ~O_DIRECTORY, 0, 1),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EOPNOTSUPP),
+      BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW),
+  };
+  const sock_fprog filter{std::size(program), program};
+  return prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 &&
+         prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &filter) == 0;
+}
+
+// Starts a process that does the work and exits with 0 if no expectation failed.
+template <class Work>
+pid_t start(Kind kind, Work work) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  if (kind == Kind::named && !refuseNameless()) _exit(2);
+  work();
+  std::cout.flush();
+  _exit(testing::Test::HasFailure() ? 1 : 0);
+}
+
+bool went(pid_t child) {
+  int status = 0;
+  return waitpid(child, &status, 0) == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+class ReplacementOfKind : public testing::TestWithParam<Kind> {
+ protected:
+  void SetUp() override {
+    if (!went(start(GetParam(), [] {}))) GTEST_SKIP() << "this system has no seccomp filters";
+  }
+
+  const test::Folder folder_;
+  const fs::path file_ = folder_.path() / "file";
+};
+INSTANTIATE_TEST_SUITE_P(Either, ReplacementOfKind, testing::Values(Kind::nameless, Kind::named),
+                         [](const auto& test) {
+                           return test.param == Kind::named ? "named" : "nameless";
+                         });
+
+TEST_P(ReplacementOfKind, TakesThePlaceOnlyWhenItIsDone) {
+  folder_.write("file", "old");
+  EXPECT_TRUE(went(start(GetParam(), [&] {
+    {
+      Replacement abandoned(file_);
+      std::fputs("half", abandoned.stream());
+      std::fflush(abandoned.stream());
+      EXPECT_EQ(contents(file_), "old");
+      if (GetParam() == Kind::named) {
+        EXPECT_EQ(folder_.files(), 2U);
+      }
+    }
+    EXPECT_EQ(folder_.files(), 1U);
+    Replacement a(file_), b(file_);
+    std::fputs("a", a.stream());
+    std::fputs("b", b.stream());
+    b.commit(Durability::onDisk);
+    EXPECT_EQ(contents(file_), "b");
+    a.commit();
+    EXPECT_EQ(contents(file_), "a") << "two at a time do not share a file";
+    EXPECT_EQ(folder_.files(), 1U);
+  })));
+}
+
+// What another process is still writing is not taken for abandoned.
+TEST_P(ReplacementOfKind, LeavesThoseOfLiveProcessesAlone) {
+  int pipe[2];
+  ASSERT_EQ(::pipe(pipe), 0);
+  int ready[2];
+  ASSERT_EQ(::pipe(ready), 0);
+  const pid_t slow = start(GetParam(), [&] {
+    Replacement replacement(file_);
+    std::fputs("slow", replacement.stream());
+    char go = 0;
+    EXPECT_EQ(write(ready[1], "", 1), 1);
+    EXPECT_EQ(read(pipe[0], &go, 1), 1);
+    replacement.commit();
+  });
+  char byte = 0;
+  ASSERT_EQ(read(ready[0], &byte, 1), 1);
+  writeFile(file_, "quick");
+  EXPECT_EQ(contents(file_), "quick");
+  ASSERT_EQ(write(pipe[1], "", 1), 1);
+  EXPECT_TRUE(went(slow));
+  EXPECT_EQ(contents(file_), "slow");
+  EXPECT_EQ(folder_.files(), 1U);
+  for (const int end : {pipe[0], pipe[1], ready[0], ready[1]}) close(end);
+}
+
+// Killed at any moment: the file is whole, and what may be left is gone after the next write.
+TEST_P(ReplacementOfKind, OutlivesKillsAtAnyMoment) {
+  constexpr std::size_t kSize = 2 << 20;
+  const auto isWhole = [](const std::string& bytes) {
+    return bytes.size() == kSize && bytes.find_first_not_of(bytes[0]) == bytes.npos;
+  };
+  writeFile(file_, std::string(kSize, 'a'));
+  Rng rng(GetParam() == Kind::named ? 1 : 2);
+  int changes = 0, left = 0;
+  for (int kill = 0; kill < 32; ++kill) {
+    const std::string before = contents(file_);
+    const pid_t child = start(GetParam(), [&] {
+      for (char c = static_cast<char>(before[0] + 1);;
+           c = c == 'z' ? 'a' : static_cast<char>(c + 1))
+        writeFile(file_, std::string(kSize, c));
+    });
+    std::this_thread::sleep_for(std::chrono::microseconds(1000 + rng.uniform(20000)));
+    ::kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    const std::string after = contents(file_);
+    ASSERT_TRUE(isWhole(after)) << "after " << kill << " kills";
+    changes += after != before;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) {
+      if (entry.path() == file_) continue;
+      ++left;
+      // Only between its getting a name and that becoming the file's.
+      EXPECT_TRUE(GetParam() == Kind::named || isWhole(contents(entry)));
+    }
+    if (kill % 8 == 7) {
+      writeFile(file_, after);
+      EXPECT_EQ(folder_.files(), 1U) << "after " << kill << " kills";
+    }
+  }
+  EXPECT_GT(changes, 0) << "no process came to write";
+  EXPECT_TRUE(GetParam() == Kind::nameless || left > 0) << "no process was killed while it wrote";
 }
 
 }  // namespace
