@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "command.h"
-#include "core/base/file.h"
 #include "core/parse/format.h"
 #include "core/plugin/culprit.h"
 #include "crash.h"
