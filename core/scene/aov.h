@@ -25,7 +25,7 @@ enum Aov : AovSet {
   kShape = 512,        // shape: which shape or instance it is, from 1 in the order of the scene;
                        // a float: beyond 2^24 neighbours share numbers
 };
-inline constexpr AovSet kEveryAov = ~AovSet{0};
+inline constexpr AovSet kEveryAov = 2 * kShape - 1;
 
 // Those of the surface that few ask for.
 inline constexpr AovSet kOfDetail = kUv | kTrueNormal | kDerivatives | kShape;
