@@ -26,7 +26,10 @@ struct FilmInfo {
   // render was interrupted. Empty: all have `endSample`, and there may be no such tiles, as in a
   // merged film.
   std::vector<std::uint32_t> reached;
-  std::uint32_t endSample = 0;                       // the least of them
+  std::uint32_t endSample = 0;  // the least of them
+  // One past the last sample to which an interrupted pass was to bring all pixels; 0: there was
+  // none. With it a render that ends at an error has the same passes when it goes on.
+  std::uint32_t passEnd = 0;
   DPoint3 origin{0};                                 // of render space in the world
   std::uint64_t badSamples = 0;                      // that were not a number or threw
   double seconds = 0;                                // of rendering, of all runs together

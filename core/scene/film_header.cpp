@@ -119,6 +119,7 @@ std::string filmHeader(const FilmInfo& info) {
       {"firstSample", info.firstSample},
       {"reached", info.reached},
       {"endSample", info.endSample},
+      {"passEnd", info.passEnd},
       {"origin", {ofNumber(info.origin.x), ofNumber(info.origin.y), ofNumber(info.origin.z)}},
       {"badSamples", info.badSamples},
       {"seconds", ofNumber(info.seconds)},
@@ -148,6 +149,7 @@ FilmInfo readFilmHeader(std::string_view text) {
 
   info.firstSample = integer<std::uint32_t>(json.at("firstSample"));
   info.endSample = integer<std::uint32_t>(json.at("endSample"), info.firstSample);
+  info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   for (const Json& end : json.at("reached"))
     info.reached.push_back(integer<std::uint32_t>(end, info.endSample));
   require(info.reached.empty() || std::ranges::min(info.reached) == info.endSample);
