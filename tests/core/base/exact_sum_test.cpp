@@ -12,6 +12,8 @@
 namespace pbrt {
 namespace {
 
+__extension__ using Wide = __int128;
+
 double valueOf(const std::vector<double>& terms) {
   ExactSums<1> sums;
   for (const double x : terms) sums.add({x});
@@ -30,13 +32,13 @@ TEST(ExactSums, KeepWhatDoublesLose) {
 TEST(ExactSums, AreThoseOfIntegersInAnyOrder) {
   std::mt19937_64 random(1);
   std::vector<double> terms;
-  __int128 sum = 0;
+  Wide sum = 0;
   for (int i = 0; i < 20000; ++i) {
     const int bits = std::uniform_int_distribution(1, 53)(random);
     const auto k = static_cast<std::int64_t>(random() >> (64 - bits)) * (random() % 2 ? 1 : -1);
     const int shift = std::uniform_int_distribution(0, 70 - bits)(random);
     terms.push_back(std::ldexp(static_cast<double>(k), shift - 40));
-    sum += static_cast<__int128>(k) << shift;
+    sum += static_cast<Wide>(k) << shift;
   }
   const double expected = std::ldexp(static_cast<double>(sum), -40);
   for (int order = 0; order < 20; ++order) {
