@@ -60,7 +60,7 @@ const std::vector<Rule>& rules() {
 const std::vector<Rule>& libraries() {
   static const std::vector<Rule> all{
       {"embree", {"core/scene/accel"}},
-      {"dlfcn.h", {"core/plugin/loader.cpp"}},
+      {"dlfcn.h", {"core/plugin/loader.cpp", "core/plugin/culprit.cpp"}},
       {"tbb/", {"core/scene/", "core/base/parallel."}},
       {"oneapi/", {"core/scene/", "core/base/parallel."}},
       {"Imf", {"core/base/image"}},

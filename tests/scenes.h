@@ -33,7 +33,7 @@ inline Image renderScene(Scene& scene, int threads = 0, std::uint32_t first = 0,
   control.firstSample = first;
   control.endSample = end ? end : static_cast<std::uint32_t>(scene.sampler().samplesPerPixel());
   scene.integrator().render(scene, scene.sampler(), scene.film(), control);
-  EXPECT_EQ(control.badSamples, 0U);
+  EXPECT_EQ(describe(control.faults), "");
   return scene.film().image();
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "command.h"
+#include "frames.h"
 
 namespace pbrt {
 
@@ -83,6 +84,17 @@ void defineOptions(CLI::App& app, Options& o) {
       ->take_all()
       ->allow_extra_args(false)
       ->check(CLI::IsMember(std::vector<std::string>(aovNames().begin(), aovNames().end())));
+  app.add_option(
+      "--frames", o.frameList,
+      "Render frames of an animation, one after the other: 7, 1-240, 1-240:10 (every tenth) or "
+      "1-10,20. A run of # becomes the frame's number, in the names of scenes and outputs and in "
+      "all strings of the scene: --outfile out/####.exr");
+  app.add_option("--fps", o.framesPerSecond,
+                 "Frames per second: frame k shows the scene k / FPS seconds later (default: its "
+                 "time stands still)")
+      ->check(positiveNumber());
+  app.add_flag("--skip-existing", o.skipExisting,
+               "Leave out frames whose pictures are there already");
   app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");
   app.add_option("--nthreads", o.build.threads,
                  "Exactly so many threads work, above the number of cores, too (default: the cores "
@@ -108,6 +120,8 @@ void defineOptions(CLI::App& app, Options& o) {
          "lines (messages of Open Job Description on standard output), json (there, an object a "
          "line), none; auto: bar, or none with --quiet")
       ->check(CLI::IsMember(&kProgressStyles));
+  app.add_flag("--progress-error", o.goal.showsError,
+               "Tell the relative error, as --target-error estimates it, about every 10 s");
   auto* stats = app.add_flag("--stats", o.stats,
                              "Tell times, rays, memory and the plug-ins that were opened");
   app.add_option("--log-level", o.logLevel, "What to say beside results: verbose, warning, error")
@@ -130,6 +144,8 @@ void defineOptions(CLI::App& app, Options& o) {
       ->excludes(check, stats);
   app.add_flag("--permissive", o.permissive,
                "Go on where the scene is wrong: what cannot be had is magenta, or left out");
+  app.add_flag("--strict", o.strict,
+               "End at the first sample that fails, instead of counting it as black");
   app.footer(
       "SIGUSR1: save the checkpoint (without one: the picture so far) and go on.\n"
       "SIGTERM, SIGINT, SIGHUP: save both and end; a second SIGINT: end at once.\n"
@@ -170,7 +186,7 @@ void finishOptions(Options& o) {
   if (!o.samples.empty()) readRange(o.samples, o.goal);
   for (const std::string& name : o.aovs) o.aovSet |= *aovByName(name);
   o.build.aovs = o.aovSet;
-  if (o.goal.error) o.build.aovs |= kVariance;
+  if (o.goal.error || o.goal.showsError) o.build.aovs |= kVariance;
   if (!o.cropWindow.empty()) {
     o.build.cropWindow.emplace();
     std::copy(o.cropWindow.begin(), o.cropWindow.end(), o.build.cropWindow->begin());
@@ -183,11 +199,21 @@ void finishOptions(Options& o) {
   }
   if (o.files.empty()) o.files = {"-"};
   if (o.files[0] != "-") o.build.folder = std::filesystem::path(o.files[0]).parent_path();
+  if (o.frameList) o.frames = readFrames(*o.frameList);
+  if (!o.frames.empty())
+    checkFrames(o);
+  else if (o.skipExisting || o.framesPerSecond > 0)
+    throw Error("--skip-existing and --fps are about --frames", Failure::usage);
   const Severity least = o.quiet || o.logLevel == "error" ? Severity::error
                          : o.logLevel == "verbose"        ? Severity::note
                                                           : Severity::warning;
   o.reports = std::make_shared<Reports>(least);
   o.build.permissive = o.permissive || o.check;
+  renewReports(o);
+}
+
+void renewReports(Options& o) {
+  o.reports = std::make_shared<Reports>(o.reports->least());
   o.build.report = [reports = o.reports](const Diagnostic& d) { reports->add(d); };
 }
 

@@ -21,11 +21,12 @@ double estimatedError(const Image& image) {
 Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double> error) {
   // Fewer samples may not have met what is rare and bright yet.
   constexpr std::uint32_t kEnoughForVariance = 16;
+  constexpr double kErrorEvery = 10;  // seconds
 
   const std::uint32_t done = taken();
   const std::uint32_t left = goal_.endSample - end_;
   double part = static_cast<double>(done) / std::max(1U, done + left);
-  if (!goal_.seconds && !goal_.error && !goal_.interval) {
+  if (!goal_.seconds && !goal_.error && !goal_.interval && !goal_.showsError) {
     const Pass pass{end_, goal_.endSample, part, 1};
     end_ = pass.end;
     return pass;
@@ -45,6 +46,7 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
     }
     if (goal_.interval)
       wanted = std::min(wanted, std::max(1.0, (*goal_.interval - sinceLook) / perSample));
+    if (goal_.showsError) wanted = std::min(wanted, std::max(1.0, kErrorEvery / perSample));
     if (goal_.error && error) {
       // The error falls with the root of the number of samples.
       const double needed = done * std::pow(*error / *goal_.error, 2);

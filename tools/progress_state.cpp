@@ -61,7 +61,7 @@ std::string statusText(const ProgressState& s, int width, bool bar) {
   if (s.error) add(fmt::format("error about {:.2g}", *s.error));
   add(fmt::format("{:.2f} Mrays/s", s.raysPerSecond / 1e6));
   text.resize(std::min(text.size(), room));
-  constexpr std::size_t kLeast = 10, kMost = 40;  // characters of a bar
+  constexpr std::size_t kLeast = 10, kMost = 20;  // characters of a bar
   if (!bar || room < text.size() + kLeast + 3) return text;
   const std::size_t length = std::min(room - text.size() - 3, kMost);
   const auto filled = static_cast<std::size_t>(static_cast<double>(length) * s.part);
@@ -95,8 +95,6 @@ std::string pictureLine(ProgressStyle style, const std::string& file) {
       return fmt::format("openjd_status: wrote {}\n", file);
     case ProgressStyle::json:
       return line(Json{{"state", "wrote"}, {"file", file}});
-    case ProgressStyle::none:
-      return "";
     default:
       return file + '\n';
   }

@@ -7,6 +7,7 @@
 
 #include "core/base/replacement.h"
 #include "core/scene/picture_attributes.h"
+#include "crash.h"
 #include "stats.h"
 #include "status_line.h"
 
@@ -25,6 +26,18 @@ bool isFilm(const fs::path& file) {
 // As --pixelbounds has it.
 std::string inWords(const Bounds2i& window) {
   return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
+}
+
+// What went wrong with it; empty: nothing.
+std::optional<Error> failureOf(const std::function<void()>& write) {
+  try {
+    write();
+    return {};
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error("out of memory for a picture of this size");
+  }
 }
 
 void note(const Options& o, const std::string& message) {
@@ -77,44 +90,40 @@ void RenderJob::resume() {
   const auto refuse = [&](const std::string& reason) {
     throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
   };
-  {
-    const FilmReader reader(o_.checkpoint);
-    const FilmInfo& found = reader.info();
-    const std::string differs = difference(key_, found.key);
-    if (!differs.empty()) refuse(differs);
-    if (found.window != scene_.film().crop())
-      refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
-                         inWords(scene_.film().crop())));
-    if (found.firstSample != goal_.firstSample)
-      refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
-    const std::uint32_t most =
-        found.interrupted() ? *std::ranges::max_element(found.reached) : found.endSample;
-    if (most > goal_.endSample)
-      refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
-                         most - goal_.firstSample, goal_.endSample - goal_.firstSample));
-  }
-  const FilmInfo found = readFilm(o_.checkpoint, scene_.film());
-  if (!found.interrupted())
-    std::ranges::fill(control_.reached, found.endSample);
-  else if (found.reached.size() == control_.reached.size())
+  const FilmInfo found = FilmReader(o_.checkpoint).info();
+  const std::uint32_t most =
+      found.interrupted() ? std::ranges::max(found.reached) : found.endSample;
+  const std::string differs = difference(key_, found.key);
+  if (!differs.empty()) refuse(differs);
+  if (found.window != scene_.film().crop())
+    refuse(fmt::format("it has the pixels {}, not {}", inWords(found.window),
+                       inWords(scene_.film().crop())));
+  if (found.firstSample != goal_.firstSample)
+    refuse(fmt::format("its first sample is {}, not {}", found.firstSample, goal_.firstSample));
+  if (most > goal_.endSample)
+    refuse(fmt::format("it has {} samples per pixel, more than the {} that are asked for",
+                       most - goal_.firstSample, goal_.endSample - goal_.firstSample));
+  readFilm(o_.checkpoint, scene_.film());
+  if (found.interrupted())
     control_.reached = found.reached;
   else
-    refuse("its tiles are not those of this film");
-  control_.badSamples = found.badSamples;
+    std::ranges::fill(control_.reached, found.endSample);
+  if (goal_.error) passEnd_ = std::min(found.passEnd, goal_.endSample);
+  control_.faults.addEarlier(found.badSamples);
+  if (o_.strict && found.badSamples > 0) refuse(describe(control_.faults));
+  adviseToResume();
   start_ -= found.seconds;
-  // Planned by the error alone, passes end where those of a render did that was not interrupted.
-  // PASSEND
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height());
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
     std::optional<double> error;
-    if (goal_.error && samples() > 0 && least() == most()) {
+    if ((goal_.error || goal_.showsError) && samples() > 0 && least() == most()) {
       error = estimatedError(scene_.film().image(kVariance));
       progress.error(*error);
     }
@@ -130,7 +139,7 @@ bool RenderJob::run() {
     }
   }
   progress.end(Stage::done);
-  return true;
+  return whole_ = true;
 }
 
 // Returns false if a signal asks the render to end before the pass does.
@@ -149,7 +158,12 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
-    scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    try {
+      scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
+    } catch (const Error&) {  // which leaves a film that can be gone on with
+      if (saves() && control_.samplesDone > 0) tryTo([&] { saveCheckpoint(); });
+      throw;
+    }
     progress.rest();
   }
   return true;
@@ -157,64 +171,64 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
-  const bool any = most() > goal_.firstSample;
-  std::optional<Error> unsaved;
-  if (saves() && control_.samplesDone > 0) try {
-      saveCheckpoint();
-    } catch (const Error& error) {
-      unsaved = error;
-    }
-  try {
-    if (any) writeOutputs();
-  } catch (const Error& error) {
-    if (!saves() || unsaved) throw;
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+  std::optional<Error> unsaved, unwritten;
+  if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
+  if (mayWrite()) unwritten = failureOf([&] { writeOutputs(); });
+  if (unwritten && saves() && !unsaved) {
+    std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
     diagnostics.push_back(
         {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
-    throw Error(std::move(diagnostics), error.failure());
+    throw Error(std::move(diagnostics), unwritten->failure());
   }
+  if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
-  return any;
+  return mayWrite();
+}
+
+bool RenderJob::mayWrite() const {
+  return most() > goal_.firstSample && (whole_ || !o_.frame);
 }
 
 void RenderJob::saveCheckpoint() {
   writeFilm(o_.checkpoint, scene_.film(), info());
+  adviseToResume();
+}
+
+void RenderJob::adviseToResume() const {
+  adviseAfterCrash(o_.checkpoint + " holds the samples so far: go on with --resume");
 }
 
 void RenderJob::writeOutputs() const {
   const FilmInfo info = this->info();
   std::optional<Image> image;
-  std::optional<Error> failure;  // the first; the others are written all the same
-  for (const std::string& output : outputs_) try {
-      if (isFilm(output)) {
-        writeFilm(output, scene_.film(), info);
-        continue;
-      }
-      if (!image) {
-        const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-        image = scene_.film().image(~notStored);
-        image->attributes = pictureAttributes(info);
-      }
-      writeImage(output, *image);
-    } catch (const Error& error) {
-      if (!failure) failure = error;
+  const auto write = [&](const std::string& output) {
+    if (isFilm(output)) return writeFilm(output, scene_.film(), info);
+    if (!image) {
+      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
+      image = scene_.film().image(~notStored);
+      image->attributes = pictureAttributes(info);
     }
-  if (failure) throw *failure;
+    writeImage(output, *image);
+  };
+  std::optional<Error> first;  // failure; the other outputs are written all the same
+  for (const std::string& output : outputs_) {
+    const std::optional<Error> failure = failureOf([&] { write(output); });
+    if (!first) first = failure;
+  }
+  if (first) throw *first;
 }
 
 void RenderJob::writeSoFar() const {
-  if (most() > goal_.firstSample) tryTo([&] { writeOutputs(); });
+  if (mayWrite()) tryTo([&] { writeOutputs(); });
 }
 
 // Errors become warnings: it is tried again later.
 void RenderJob::tryTo(const std::function<void()>& write) const {
-  try {
-    write();
-  } catch (const Error& error) {
-    for (Diagnostic d : error.diagnostics()) {
-      d.severity = Severity::warning;
-      o_.build.report(d);
-    }
+  const std::optional<Error> failure = failureOf(write);
+  if (!failure) return;
+  for (Diagnostic d : failure->diagnostics()) {
+    d.severity = Severity::warning;
+    o_.build.report(d);
   }
 }
 
@@ -224,7 +238,8 @@ FilmInfo RenderJob::info() const {
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
-  info.badSamples = control_.badSamples;
+  info.passEnd = goal_.error ? passEnd_ : 0;
+  info.badSamples = control_.faults.count();
   info.seconds = seconds();
   info.attributes = scene_.attributes();
   info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());
@@ -247,7 +262,7 @@ std::string RenderJob::interruption() const {
   const auto film = std::ranges::find_if(outputs_, isFilm);
   return fmt::format("interrupted at {}; {}", progress(),
                      !o_.checkpoint.empty() ? "go on with --resume"
-                     : film != outputs_.end()
+                     : film != outputs_.end() && mayWrite()
                          ? fmt::format("go on with --checkpoint {} --resume", *film)
                          : "without --checkpoint, it cannot be continued");
 }

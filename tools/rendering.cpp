@@ -26,6 +26,7 @@ int render(const Options& o, PluginLoader& loader) {
   checkCheckpoint(o);
   RenderControl control;
   control.threads = o.build.threads;
+  control.strict = o.strict;
   Signals signals(control.stop);
   std::optional<FileDigest> digest;
   if (writesFilms(o)) digest.emplace();
@@ -35,7 +36,8 @@ int render(const Options& o, PluginLoader& loader) {
     step();
     t.build += now() - start;
   };
-  Parser parser([&](Directive&& d) { build([&] { reader.read(std::move(d)); }); }, includes(o));
+  Parser parser([&](Directive&& d) { build([&] { reader.read(std::move(d)); }); }, includes(o),
+                o.frame);
   parse(parser, o.files);
   std::unique_ptr<Scene> scene;
   build([&] { scene = reader.finish(); });
@@ -56,10 +58,7 @@ int render(const Options& o, PluginLoader& loader) {
   if (o.resume) job.resume();
   const bool whole = job.run();
   t.rendered = now();
-  if (control.badSamples)
-    o.build.report({Severity::warning,
-                    fmt::format("{} samples were not a number or infinite; they count as black",
-                                control.badSamples.load())});
+  if (control.faults.count() > 0) o.build.report({Severity::warning, describe(control.faults)});
   const bool written = job.finish();
   t.written = now();
   if (written && !o.quiet)

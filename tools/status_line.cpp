@@ -1,11 +1,13 @@
 #include "status_line.h"
 
 #include <sys/ioctl.h>
+#include <sys/uio.h>
 #include <unistd.h>
 
+#include <array>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
+#include <initializer_list>
 #include <mutex>
 #include <string_view>
 
@@ -13,15 +15,19 @@ namespace pbrt {
 
 namespace {
 
-constexpr const char* kErase = "\r\x1b[K";
+constexpr std::string_view kErase = "\r\x1b[K";
 
 std::mutex mutex;
 std::string status;
 
-// In one piece. What cannot be written is lost: there is nowhere to say so.
-void write(const std::string& text) {
-  std::fwrite(text.data(), 1, text.size(), stderr);
-  std::fflush(stderr);
+// In one piece, for several programs may write to one log. What cannot be written is lost: there is
+// nowhere to say so.
+void write(std::initializer_list<std::string_view> parts) {
+  std::array<iovec, 4> pieces{};
+  int n = 0;
+  for (const std::string_view part : parts)
+    pieces[static_cast<std::size_t>(n++)] = {const_cast<char*>(part.data()), part.size()};
+  static_cast<void>(!writev(STDERR_FILENO, pieces.data(), n));
 }
 
 }  // namespace
@@ -46,13 +52,16 @@ int statusWidth() {
 void showStatus(const std::string& text) {
   const std::lock_guard lock(mutex);
   if (text == status) return;
-  write(kErase + text);
+  write({kErase, text});
   status = text;
 }
 
-void printError(const std::string& line) {
+void printError(std::string_view line) noexcept {
   const std::lock_guard lock(mutex);
-  write(status.empty() ? line + '\n' : kErase + line + '\n' + status);
+  if (status.empty())
+    write({line, "\n"});
+  else
+    write({kErase, line, "\n", status});
 }
 
 }  // namespace pbrt

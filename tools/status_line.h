@@ -2,6 +2,7 @@
 // The last line of a terminal, redrawn while a command works, and what is printed above it.
 
 #include <string>
+#include <string_view>
 
 namespace pbrt {
 
@@ -15,7 +16,8 @@ int statusWidth();
 // Shows a line in place of the one before; empty: none. Only where hasStatusLine(). Any thread.
 void showStatus(const std::string& text);
 
-// Prints a line to standard error, above the status line if there is one. Any thread.
-void printError(const std::string& line);
+// Prints a line to standard error, above the status line if there is one. Any thread. Takes no
+// memory.
+void printError(std::string_view line) noexcept;
 
 }  // namespace pbrt

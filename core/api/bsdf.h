@@ -70,6 +70,7 @@ class Bsdf {
   explicit Bsdf(const SurfaceInteraction& at) : frame_(at.frame()), n_(at.n) {}
   void add(const Bxdf* lobe) { lobes_[count_++] = lobe; }
   int count() const { return count_; }
+  const Bxdf& lobe(int i) const { return *lobes_[i]; }
   // Scales what the lobes from the `first` on scatter; what has no colour left goes.
   void scale(int first, const Spectrum& by, Scratch& scratch);
 

@@ -85,6 +85,8 @@ class VolumeIntegrator : public SamplingIntegrator {
   explicit VolumeIntegrator(const Setup& setup);
   ~VolumeIntegrator() override;
   const VolumeIntegrator* volume() const final { return this; }
+  // What it adds to.
+  const SamplingIntegrator& inner() const { return surface_; }
 
   void prepare(const World& world, Point2i resolution) const final {
     surface_.prepare(world, resolution);

@@ -73,6 +73,7 @@ class Medium {
 
  private:
   friend class MediumWalk;
+  friend class WatchedMedium;  // core/scene/watch.cpp
 
   Transform toMedium_;
   float g_;

@@ -1,6 +1,8 @@
 #include "core/base/parallel.h"
 
 #include <fmt/format.h>
+#include <malloc.h>
+#include <sys/resource.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -23,13 +25,22 @@ namespace pbrt {
 
 void parallelFor(std::size_t n, const std::function<void(std::size_t)>& body) {
   std::atomic<std::size_t> ended = 0;
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, n, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
-        ended.fetch_add(1, std::memory_order_release);
-      },
-      tbb::simple_partitioner());
+  const auto loop = [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, n, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i < range.end(); ++i) body(i);
+          ended.fetch_add(1, std::memory_order_release);
+        },
+        tbb::simple_partitioner());
+  };
+  // oneTBB's own arena has a place for each core only, even if more threads are asked for.
+  const auto threads = static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  if (threads > tbb::this_task_arena::max_concurrency())
+    tbb::task_arena(threads).execute(loop);
+  else
+    loop();
   // oneTBB has ordered the bodies before what follows; this says so to ThreadSanitizer, which does
   // not see into it. It orders no two bodies.
   static_cast<void>(ended.load(std::memory_order_acquire));
@@ -66,6 +77,10 @@ namespace {
 void startThreads(int n) {
   static std::atomic<int> started = 1;  // the one that runs here
   if (n <= started) return;
+  // Where addresses are rationed, a heap for each thread (64 MiB of them, in glibc) is too much.
+  if (rlimit addresses{};
+      getrlimit(RLIMIT_AS, &addresses) == 0 && addresses.rlim_cur != RLIM_INFINITY)
+    mallopt(M_ARENA_MAX, 1);
   std::latch end(1);
   std::vector<std::thread> trial;
   const auto join = [&] {

@@ -89,6 +89,7 @@ const PluginInfo& openPlugin(const fs::path& file) {
   if (!info) refuse("its entry function returns nothing");
   // The file may hold the stamp of something else.
   if (const std::string reason = refusal(info->stamp); !reason.empty()) refuse(reason);
+  registerPlugin(*info, whole);
   return *info;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "core/plugin/culprit.h"
 #include "core/plugin/plugin.h"
 
 namespace pbrt {
@@ -57,6 +58,7 @@ std::unique_ptr<Interface> create(const PluginInfo& plugin, Params& params,
                                   const typename Interface::Setup& setup) {
   auto* make = plugin.create;
   if constexpr (std::is_same_v<Interface, Texture<Spectrum>>) make = plugin.createSpectrum;
+  const Making making(params.where());
   try {
     return std::unique_ptr<Interface>(static_cast<Interface*>(make(params, &setup)));
   } catch (const Error& error) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/base/parallel.h"
+#include "core/plugin/culprit.h"
 #include "core/scene/accel_query.h"
 #include "core/scene/placement.h"
 
@@ -62,6 +63,8 @@ struct Accel::UserGeometry {
   Location where;
   const HitFilter* filter;
   std::atomic<bool> reachesTooFar = false;  // as Embree's threads see when they build
+  std::atomic<bool> threw = false;
+  std::exception_ptr thrown;  // the first
 
   // The ray of lane i as the shape sees it.
   ObjectRay ray(RTCRayN* rays, unsigned n, unsigned i) const {
@@ -74,7 +77,12 @@ struct Accel::UserGeometry {
 
   static void bounds(const RTCBoundsFunctionArguments* a) {
     auto& g = *static_cast<UserGeometry*>(a->geometryUserPtr);
-    const Bounds3 b = g.toScene.bounds(g.shape->bounds(a->primID));
+    Bounds3 b;
+    try {
+      b = g.toScene.bounds(g.shape->bounds(a->primID));
+    } catch (...) {
+      if (!g.threw.exchange(true)) g.thrown = asError(g.where);
+    }
     if (!isWithin(b, kReach)) g.reachesTooFar.store(true, std::memory_order_relaxed);
     a->bounds_o->lower_x = b.lo.x, a->bounds_o->lower_y = b.lo.y, a->bounds_o->lower_z = b.lo.z;
     a->bounds_o->upper_x = b.hi.x, a->bounds_o->upper_y = b.hi.y, a->bounds_o->upper_z = b.hi.z;
@@ -100,11 +108,13 @@ struct Accel::UserGeometry {
 
   static void intersect(const RTCIntersectFunctionNArguments* a) {
     const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    auto& context = *static_cast<QueryContext*>(a->context);
     RTCRayN* rays = RTCRayHitN_RayN(a->rayhit, a->N);
     RTCHitN* hits = RTCRayHitN_HitN(a->rayhit, a->N);
     for (unsigned i = 0; i < a->N; ++i) {
       if (!a->valid[i]) continue;
-      const auto hit = g.nearest(a, rays, i, false);
+      std::optional<ShapeHit> hit;
+      if (!context.attempt([&] { hit = g.nearest(a, rays, i, false); })) return;
       if (!hit) continue;
       RTCRayN_tfar(rays, a->N, i) = hit->t;
       RTCHitN_u(hits, a->N, i) = hit->u;
@@ -117,11 +127,14 @@ struct Accel::UserGeometry {
 
   static void occluded(const RTCOccludedFunctionNArguments* a) {
     const auto& g = *static_cast<const UserGeometry*>(a->geometryUserPtr);
+    auto& context = *static_cast<QueryContext*>(a->context);
     RTCRayN* rays = a->ray;
-    for (unsigned i = 0; i < a->N; ++i)
-      if (a->valid[i] && (g.filter ? g.nearest(a, rays, i, true).has_value()
-                                   : g.shape->occluded(g.ray(rays, a->N, i), a->primID)))
-        RTCRayN_tfar(rays, a->N, i) = -kInfinity;
+    context.attempt([&] {
+      for (unsigned i = 0; i < a->N; ++i)
+        if (a->valid[i] && (g.filter ? g.nearest(a, rays, i, true).has_value()
+                                     : g.shape->occluded(g.ray(rays, a->N, i), a->primID)))
+          RTCRayN_tfar(rays, a->N, i) = -kInfinity;
+    });
   }
 };
 
@@ -215,6 +228,8 @@ void Accel::build(const MotionTimes& times) {
   rtcCommitScene(scene(scene_));
   buildSeconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   check(device(device_), "building the ray tree");
+  for (const auto& user : users_)
+    if (user->thrown) std::rethrow_exception(user->thrown);
   for (const auto& user : users_)
     if (user->reachesTooFar) throw tooFar(user->where, kReach, "the shape reaches");
   if (!isWithin(bounds(), reach_))

@@ -6,6 +6,8 @@
 #else
 #include <embree3/rtcore.h>
 #endif
+#include <exception>
+
 #include "core/api/world.h"
 #include "core/scene/accel.h"
 
@@ -26,26 +28,43 @@ using EmbreeContext = RTCRayQueryContext;
 using EmbreeContext = RTCIntersectContext;
 #endif
 
-// What callbacks get back.
+// What callbacks get back. No exception may pass through Embree: the first of a query is kept here.
 struct QueryContext : EmbreeContext {
   RaySource source;
+  std::exception_ptr thrown = nullptr;
+
+  // Work of a callback; false if it threw.
+  template <class Work>
+  bool attempt(const Work& work) noexcept {
+    try {
+      work();
+      return true;
+    } catch (...) {
+      if (!thrown) thrown = std::current_exception();
+      return false;
+    }
+  }
 };
 
 // Embree's own hits of triangles, which it asks about one by one.
 template <bool shadow>
 void filterHits(const RTCFilterFunctionNArguments* a) {
   const auto& filter = *static_cast<const HitFilter*>(a->geometryUserPtr);
-  const auto& rays = static_cast<const QueryContext*>(a->context)->source;
+  auto& context = *static_cast<QueryContext*>(a->context);
+  const auto& rays = context.source;
   for (unsigned i = 0; i < a->N; ++i) {
     if (!a->valid[i]) continue;
     const Hit hit{RTCRayN_tfar(a->ray, a->N, i),   RTCHitN_u(a->hit, a->N, i),
                   RTCHitN_v(a->hit, a->N, i),      RTCHitN_primID(a->hit, a->N, i),
                   RTCHitN_geomID(a->hit, a->N, i), RTCHitN_instID(a->hit, a->N, i, 0)};
-    if (!filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow)) a->valid[i] = 0;
+    bool kept = false;
+    context.attempt([&] { kept = filter.keeps(rays[RTCRayN_id(a->ray, a->N, i)], hit, shadow); });
+    if (!kept) a->valid[i] = 0;
   }
 }
 
-// One call into Embree. Version 4 took the context out of the calls and put optional arguments in.
+// One call into Embree, which throws what its callbacks have thrown. Version 4 took the context out
+// of the calls and put optional arguments in.
 class Query {
  public:
   // `source` gives the rays of the lanes by their identifiers.
@@ -59,22 +78,26 @@ class Query {
   }
   void intersect(RTCScene s, RTCRayHit& e) {
     rtcIntersect1(s, &e, &intersect_);
+    rethrow();
   }
   void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
     rtcIntersect16(valid, s, &e, &intersect_);
+    rethrow();
   }
   void occluded(RTCScene s, RTCRay& e) {
     rtcOccluded1(s, &e, &occluded_);
+    rethrow();
   }
   void occluded(const int* valid, RTCScene s, RTCRay8& e) {
     rtcOccluded8(valid, s, &e, &occluded_);
+    rethrow();
   }
   void occluded(const int* valid, RTCScene s, RTCRay16& e) {
     rtcOccluded16(valid, s, &e, &occluded_);
+    rethrow();
   }
 
  private:
-  QueryContext context_;
   RTCIntersectArguments intersect_;
   RTCOccludedArguments occluded_;
 #else
@@ -84,23 +107,33 @@ class Query {
   }
   void intersect(RTCScene s, RTCRayHit& e) {
     rtcIntersect1(s, &context_, &e);
+    rethrow();
   }
   void intersect(const int* valid, RTCScene s, RTCRayHit16& e) {
     rtcIntersect16(valid, s, &context_, &e);
+    rethrow();
   }
   void occluded(RTCScene s, RTCRay& e) {
     rtcOccluded1(s, &context_, &e);
+    rethrow();
   }
   void occluded(const int* valid, RTCScene s, RTCRay8& e) {
     rtcOccluded8(valid, s, &context_, &e);
+    rethrow();
   }
   void occluded(const int* valid, RTCScene s, RTCRay16& e) {
     rtcOccluded16(valid, s, &context_, &e);
+    rethrow();
   }
 
  private:
-  QueryContext context_;
 #endif
+  void rethrow() const {
+    if (context_.thrown) [[unlikely]]
+      std::rethrow_exception(context_.thrown);
+  }
+
+  QueryContext context_;
 };
 
 // Embree may abort at rays that reach farther (or are no numbers); they meet nothing.

@@ -42,9 +42,20 @@ class Factory {
     std::vector<const ParamList*> lists = {&params};
     if (more) lists.push_back(more);
     Params reader = this->params(plugin, name, where, std::move(lists), textures);
-    auto object = create<Interface>(plugin, reader, setup);
+    auto object = make<Interface>(plugin, reader, setup);
     attempt([&] { reader.refuseUnread(); });
     return object;
+  }
+
+  // Whatever the plug-in throws becomes an Error of its own.
+  template <class Interface>
+  static std::unique_ptr<Interface> make(const PluginInfo& plugin, Params& reader,
+                                         const typename Interface::Setup& setup) {
+    try {
+      return create<Interface>(plugin, reader, setup);
+    } catch (...) {
+      std::rethrow_exception(asError(reader.where(), &plugin));
+    }
   }
 
   // Runs `body`. If it throws an Error that the scene is to blame for, and the scene may have

@@ -27,8 +27,8 @@ struct FilmInfo {
   // merged film.
   std::vector<std::uint32_t> reached;
   std::uint32_t endSample = 0;  // the least of them
-  // One past the last sample to which an interrupted pass was to bring all pixels; 0: there was
-  // none. With it a render that ends at an error has the same passes when it goes on.
+  // To which sample the pass was to go that was interrupted, where passes end by the estimated
+  // error: gone on with, they end there again. 0: passes are free.
   std::uint32_t passEnd = 0;
   DPoint3 origin{0};                                 // of render space in the world
   std::uint64_t badSamples = 0;                      // that were not a number or threw

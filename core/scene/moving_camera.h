@@ -21,6 +21,7 @@ class MovingCamera final : public Camera {
   std::optional<glm::dmat4> screenFromCamera() const override {
     return camera_->screenFromCamera();
   }
+  const Camera& atStart() const { return *camera_; }
 
  private:
   std::unique_ptr<Camera> camera_;

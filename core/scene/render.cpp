@@ -6,11 +6,14 @@
 #include <tbb/task_arena.h>
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/base/signal_stack.h"
 #include "core/scene/accel.h"
+#include "core/scene/watch.h"
 
 namespace pbrt {
 
@@ -24,11 +27,17 @@ Point2 inPixel(Point2i pixel, Point2 u) {
   return p;
 }
 
+bool allFinite(const FirstSurface& s) {
+  return isFinite(s.albedo) && isFinite(s.n) && isFinite(s.p) && isFinite(Vec3(s.uv, s.depth)) &&
+         isFinite(s.trueN) && isFinite(s.dpdu) && isFinite(s.dpdv);
+}
+
 // What one thread works with.
 struct Worker {
   Worker(const Sampler& prototype, std::size_t block)
       : samplers(block), samples(block), cameraRays(block), rays(block), hits(block) {
     for (auto& sampler : samplers) sampler = prototype.clone();
+    provideSignalStack();
   }
 
   // For each ray of a block. They are all in the middle of their sample at once.
@@ -68,51 +77,144 @@ struct TileJob {
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
-    const bool lens = world.camera().usesLens();
+    const int width = pixels.width();
+    const auto at = [&](int i) {
+      return SamplePlace{pixels.lo + Point2i(i % width, i / width), index, 1};
+    };
     int n = 0;
     for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
       for (int x = pixels.lo.x; x < pixels.hi.x; ++x, ++n) {
-        Sampler& sampler = *worker.samplers[n];
-        sampler.start({x, y}, index);
-        CameraSample& sample = worker.samples[n];
-        sample.film = inPixel({x, y}, sampler.pixel2D());
-        if (lens) sample.lens = sampler.get2D();
-        if (world.moves()) sample.time = sampler.get1D();
-        CameraRay& camera = worker.cameraRays[n];
-        camera = world.camera().generate(sample, world.filters());
-        // One that meets nothing, for what may be no ray.
-        if (!(camera.weight > 0)) camera.ray = RayDifferential({.d = {0, 0, 1}, .tMax = 0});
-        if (world.filters()) camera.ray.scaleDifferentials(differentialScale);
-        worker.rays[n] = &worker.cameraRays[n].ray;
+        const SamplePlace place{{x, y}, index, 1};
+        bool sees = false;
+        if (attempt(place, [&] { sees = start(place, worker, n); }) && !sees) add({place});
+        if (!sees) blind(worker, n);
       }
-    const auto count = static_cast<std::size_t>(n);
-    integrator.look(world, {worker.rays.data(), count}, pixels.width(),
-                    {worker.hits.data(), count});
+    look({pixels.lo, index, blockWidth}, n, width, at, worker);
     for (int i = 0; i < n; ++i) {
-      CameraRay& camera = worker.cameraRays[i];
-      Hit& hit = worker.hits[i];
-      Spectrum L(0);
-      if (camera.weight > 0) {
-        L = camera.weight *
-            integrator.Li(world, camera.ray, hit, *worker.samplers[i], worker.scratch);
-        worker.scratch.release();
-        if (!isFinite(L)) {
-          L = Spectrum(0);
-          control.badSamples.fetch_add(1, std::memory_order_relaxed);
-        }
+      const SamplePlace place = at(i);
+      Sample sample;
+      if (!attempt(place, [&] { sample = take(worker, i); })) sample = {};
+      worker.scratch.release();
+      if (!sample.finite) {
+        add({place});
+        sample = {};
       }
-      const bool stores = film.stores(kOfSurface);
-      const Point3 eye = camera.ray.o;
-      if (world.bordersMedia() && (stores || isBlack(L))) passBorders(camera.ray, hit);
-      // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
-      const bool hole = camera.weight > 0 && !hit.found() && isBlack(L);
-      film.add(tile, worker.samples[i].film, L, hole ? 0 : 1);
-      if (hit.found() && stores) {
-        const Point2i pixel = pixels.lo + Point2i(i % pixels.width(), i / pixels.width());
-        film.add(tile, pixel, index, firstSurface(eye, camera.ray, hit, worker.scratch));
-        worker.scratch.release();
+      film.add(tile, worker.samples[i].film, sample.L, sample.alpha);
+      if (sample.surface && !allFinite(*sample.surface)) {
+        add({place});
+        sample.surface.reset();
       }
+      if (sample.surface) film.add(tile, place.pixel, index, *sample.surface);
     }
+  }
+
+  // What a sample gives; by itself one that counts as black.
+  struct Sample {
+    Spectrum L{0};
+    float alpha = 1;
+    bool finite = true;
+    std::optional<FirstSurface> surface;
+  };
+
+  // Begins lane i of a block. False if sampler or camera give what is no number.
+  bool start(const SamplePlace& place, Worker& worker, int i) const {
+    Sampler& sampler = *worker.samplers[i];
+    CameraSample& sample = worker.samples[i];
+    sample.film = inPixel(place.pixel, Point2(0.5F));
+    sampler.start(place.pixel, place.sample);
+    const Point2 u = sampler.pixel2D();
+    if (!(u.x >= 0 && u.y >= 0 && u.x < 1 && u.y < 1)) return false;
+    sample.film = inPixel(place.pixel, u);
+    if (world.camera().usesLens()) sample.lens = sampler.get2D();
+    if (world.moves()) sample.time = sampler.get1D();
+    CameraRay& camera = worker.cameraRays[i];
+    camera = world.camera().generate(sample, world.filters());
+    if (!std::isfinite(camera.weight) ||
+        (camera.weight > 0 && !(isFinite(camera.ray.o) && isFinite(camera.ray.d))))
+      return false;
+    // One that meets nothing, for what may be no ray.
+    if (!(camera.weight > 0)) camera.ray = RayDifferential({.d = {0, 0, 1}, .tMax = 0});
+    if (world.filters()) camera.ray.scaleDifferentials(differentialScale);
+    worker.rays[i] = &camera.ray;
+    return true;
+  }
+
+  // Lane i of a sample that has failed already: it sees nothing.
+  static void blind(Worker& worker, int i) {
+    worker.cameraRays[i] = {RayDifferential({.d = {0, 0, 1}, .tMax = 0}), 0};
+    worker.rays[i] = &worker.cameraRays[i].ray;
+  }
+
+  // Finds the hits of a block. If that throws, it is each ray's own, as nobody knows whose it was.
+  template <class Place>
+  void look(const SamplePlace& block, int n, int width, const Place& at, Worker& worker) const {
+    setCurrentSample(block);
+    const auto count = static_cast<std::size_t>(n);
+    const std::span rays(worker.rays.data(), count);
+    const std::span hits(worker.hits.data(), count);
+    try {
+      integrator.look(world, rays, width, hits);
+    } catch (...) {
+      for (int i = 0; i < n; ++i)
+        if (!attempt(at(i), [&] {
+              hits[i] = {};
+              integrator.look(world, rays.subspan(i, 1), 1, hits.subspan(i, 1));
+            }))
+          blind(worker, i);
+    }
+  }
+
+  // Follows the ray of lane i.
+  Sample take(Worker& worker, int i) const {
+    CameraRay& camera = worker.cameraRays[i];
+    Hit& hit = worker.hits[i];
+    Sample s;
+    if (!(camera.weight > 0)) return s;
+    s.L =
+        camera.weight * integrator.Li(world, camera.ray, hit, *worker.samplers[i], worker.scratch);
+    worker.scratch.release();
+    s.finite = isFinite(s.L);
+    if (!s.finite) return s;
+    const bool stores = film.stores(kOfSurface);
+    const Point3 eye = camera.ray.o;
+    if (world.bordersMedia() && (stores || isBlack(s.L))) passBorders(camera.ray, hit);
+    // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
+    s.alpha = !hit.found() && isBlack(s.L) ? 0 : 1;
+    if (hit.found() && stores) s.surface = firstSurface(eye, camera.ray, hit, worker.scratch);
+    return s;
+  }
+
+  // Runs a part of a sample. False if it threw: that is entered then.
+  template <class Work>
+  bool attempt(const SamplePlace& place, const Work& work) const {
+    setCurrentSample(place);
+    try {
+      work();
+      return true;
+    } catch (...) {
+      control.faults.addThrown(place);
+      if (control.strict || control.faults.outOfMemory()) control.stop = true;
+      return false;
+    }
+  }
+
+  // Enters a sample that is no number, or infinite.
+  void add(const Fault& fault) const {
+    control.faults.add(fault);
+    if (control.strict) control.stop = true;
+  }
+
+  // Who gave what is not a number, or infinite: the sample is taken once more, alone and watched.
+  const PluginCode* culprit(const SamplePlace& at, const Sampler& sampler) const {
+    Watch watch(integrator, world, sampler);
+    TileJob job{watch.integrator(), watch.world(), film, control, differentialScale, 1};
+    Worker worker(watch.sampler(), 1);
+    setCurrentSample(at);
+    return watch.culprit([&] {
+      if (!job.start(at, worker, 0)) return;
+      watch.integrator().look(watch.world(), worker.rays, 1, worker.hits);
+      static_cast<void>(job.take(worker, 0));
+    });
   }
 
   // On to what can be seen: the borders of media cannot.
@@ -156,18 +258,28 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
   tbb::task_arena arena(threads);
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler, block); });
   arena.execute([&] {
-    prepare(world, film.resolution());
+    try {
+      prepare(world, film.resolution());
+    } catch (...) {
+      std::rethrow_exception(asError());
+    }
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film.tiles(), 1),
         [&](const tbb::blocked_range<int>& range) {
           for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
             job.render(tile, workers.local());
+          setCurrentSample({});
         },
         tbb::simple_partitioner());
   });
   // oneTBB has ordered the tiles before what follows; this read says so to ThreadSanitizer, which
   // does not see into it.
   static_cast<void>(control.tilesDone.load());
+  control.faults.locate([&](const SamplePlace& at) { return job.culprit(at, sampler); });
+  setCurrentSample({});
+  if (control.faults.outOfMemory()) throw Error("out of memory: " + describe(control.faults));
+  if (control.strict && control.faults.count() > 0)
+    throw Error(describe(control.faults), Failure::plugin);
 }
 
 }  // namespace pbrt

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/api/integrator.h"
+#include "core/scene/faults.h"
 #include "core/scene/film.h"
 
 namespace pbrt {
@@ -29,7 +30,8 @@ struct RenderControl {
   std::atomic<int> tilesDone{0};
   std::atomic<std::uint64_t> samplesDone{0};
   std::atomic<std::uint64_t> rays{0};
-  std::atomic<std::uint64_t> badSamples{0};  // not a number or infinite; counted as black
+  FaultLog faults;      // samples that failed: they count as black
+  bool strict = false;  // whether the first of them ends the render, which then throws
 };
 
 }  // namespace pbrt

@@ -145,7 +145,7 @@ std::shared_ptr<const Material> MaterialDefinition::overridden(Resources& resour
   if (attributes_) lists.push_back(attributes_.get());
   Library library(resources, shapeScope);
   Params params = factory.params(plugin, plugin_, where_, std::move(lists), &library);
-  std::shared_ptr<const Material> material = create<Material>(plugin, params, {});
+  std::shared_ptr<const Material> material = Factory::make<Material>(plugin, params, {});
   factory.attempt([&] { params.refuseUnread(1); });
   ParamList left;
   for (const Param* unread : params.unread(0)) left.push_back(*unread);

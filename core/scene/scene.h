@@ -66,6 +66,9 @@ class Scene final : public World, private HitFilter {
   Bsdf bsdf(SurfaceInteraction& at, Scratch& scratch) const override;
   ImplicitSurfaces implicitSurfaces() const override;
 
+  // The shape that was hit.
+  const Shape& shape(const Hit& hit) const { return *geometry(hit).shape; }
+
   const Integrator& integrator() const { return *integrator_; }
   const Sampler& sampler() const { return *sampler_; }
   // The same sampler with another seed and number of samples per pixel.

@@ -1,7 +1,7 @@
-// What the system can do to the command: disks, memory, threads, streams. Each fault is one clear
-// line and the documented exit code; old pictures stay whole, and nothing is left behind.
+// What disks, streams and surroundings can do to the command. Each fault is one clear line and the
+// documented exit code; old pictures stay whole, and nothing is left behind.
 
-#include <regex>
+#include "tests/tools/system_faults.h"
 
 #include "core/base/image.h"
 #include "tests/file_system.h"
@@ -11,41 +11,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Noisy, so that pictures of it are long.
-std::string scene(const std::string& statements = "Shape \"sphere\"", int width = 64) {
-  return "LookAt 0 0 3  0 0 0  0 1 0\nCamera \"perspective\"\n"
-         "Film \"image\" \"integer xresolution\" " +
-         std::to_string(width) + " \"integer yresolution\" " + std::to_string(width) +
-         " \"string filename\" \"out.exr\"\n"
-         "Sampler \"random\" \"integer pixelsamples\" 1\nIntegrator \"path\"\nWorldBegin\n"
-         "LightSource \"infinite\"\n" +
-         statements + "\nWorldEnd\n";
-}
-
-// So many times a statement.
-std::string times(int n, const std::string& statement) {
-  std::string text;
-  for (int i = 0; i < n; ++i) text += statement + "\n";
-  return text;
-}
-
-// One error, said in one line (its place in the scene may be shown below), for people.
-void expectError(const Outcome& outcome, int code, const std::string& pattern) {
-  EXPECT_EQ(outcome.code, code) << outcome.err;
-  const std::regex line("^([^\\n]*:\\d+:\\d+: )?error: [^\\n]*(" + pattern + ")[^\\n]*\\n");
-  EXPECT_TRUE(std::regex_search(outcome.err, line, std::regex_constants::match_continuous))
-      << "not found: " << pattern << "\nin: " << outcome.err;
-  EXPECT_EQ(outcome.err.find("bug"), std::string::npos) << outcome.err;
-}
-
-// A command with settings of the shell, such as limits and redirections.
-Outcome shell(const Folder& folder, const std::string& before, const std::string& arguments) {
-  return folder.command("sh -c '" + before + Folder::program() + " " + arguments + "'");
-}
-
 class Output : public testing::TestWithParam<const char*> {
  protected:
-  Output() { folder_.write("scene.pbrt", scene("Shape \"sphere\"", 200)); }
+  Output() { folder_.write("scene.pbrt", scene(kBall, 200)); }
 
   // The picture's name in a folder or disk.
   std::string in(const std::string& place) const { return place + "/out" + GetParam(); }
@@ -95,7 +63,7 @@ TEST_P(Output, CannotGoToADiskThatMayNotBeWritten) {
 TEST_P(Output, ThatFillsTheDiskLeavesTheOldOneWhole) {
   if (!mayMount()) GTEST_SKIP() << "this user may not mount";
   for (const bool full : {true, false}) {
-    const Disk disk(folder_, full ? "full" : "small", 24);
+    const Disk disk(folder_, full ? "full" : "small", 12);
     ASSERT_TRUE(disk.mounted());
     const std::string output = in(full ? "full" : "small");
     folder_.write(output, "the old picture");
@@ -105,7 +73,7 @@ TEST_P(Output, ThatFillsTheDiskLeavesTheOldOneWhole) {
     };
     const auto before = files();
     expectError(render(output), 4, "cannot write " + output + ": .*No space left on device");
-    EXPECT_EQ(contents(folder_.path() / output), "the old picture");
+    EXPECT_TRUE(contents(folder_.path() / output) == "the old picture");
     EXPECT_EQ(files(), before);
   }
 }
@@ -118,8 +86,53 @@ TEST_P(Output, LongerThanFilesMayBeLeavesTheOldOneWhole) {
   EXPECT_EQ(folder_.files(), 2U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pictures, Output, testing::Values(".exr", ".png"),
+INSTANTIATE_TEST_SUITE_P(Of, Output, testing::Values(".exr", ".png", ".film"),
                          [](const auto& test) { return std::string(test.param + 1); });
+
+TEST(Checkpoint, IsAskedForBeforeTheSceneIsRead) {
+  const Folder folder;
+  expectError(folder.pbrt("no.pbrt --checkpoint nowhere/a.film"), 4, "cannot write nowhere/a.film");
+  expectError(folder.pbrt("no.pbrt --checkpoint a.film --outfile nowhere/a.exr"), 4,
+              "cannot write nowhere/a.exr");
+  EXPECT_EQ(folder.files(), 0U);
+}
+
+TEST(Checkpoint, ThatCannotBeWrittenNowDoesNotEndTheRender) {
+  if (!mayMount()) GTEST_SKIP() << "this user may not mount";
+  const Folder folder;
+  folder.write("scene.pbrt", scene());
+  const Disk disk(folder, "disk", 24);
+  ASSERT_TRUE(disk.mounted());
+  const Outcome outcome = folder.pbrt(
+      "scene.pbrt --spp 200 --checkpoint disk/a.film --checkpoint-every 10ms --outfile out.exr");
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("warning: cannot write disk/a.film: No space left"), std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("error: cannot write disk/a.film: No space left"), std::string::npos)
+      << outcome.err;
+  ASSERT_EQ(folder.pbrt("scene.pbrt --quiet --spp 200 --outfile whole.exr").code, 0);
+  EXPECT_EQ(readExr(folder.path() / "out.exr").channels,
+            readExr(folder.path() / "whole.exr").channels);
+}
+
+TEST(Checkpoint, HoldsTheSamplesOfAPictureThatCouldNotBeWritten) {
+  if (!mayMount()) GTEST_SKIP() << "this user may not mount";
+  const Folder folder;
+  folder.write("scene.pbrt", scene());
+  const std::string render = "scene.pbrt --quiet --checkpoint a.film ";
+  {
+    const Disk disk(folder, "disk", 16);
+    ASSERT_TRUE(disk.mounted());
+    const Outcome outcome = folder.pbrt(render + "--outfile disk/out.exr");
+    expectError(outcome, 4, "cannot write disk/out.exr: No space left on device");
+    EXPECT_NE(outcome.err.find("the samples are in a.film: go on with --resume"), std::string::npos)
+        << outcome.err;
+  }
+  ASSERT_EQ(folder.pbrt(render + "--resume --outfile out.exr").code, 0);
+  ASSERT_EQ(folder.pbrt("scene.pbrt --quiet --outfile whole.exr").code, 0);
+  EXPECT_EQ(readExr(folder.path() / "out.exr").channels,
+            readExr(folder.path() / "whole.exr").channels);
+}
 
 TEST(Streams, ThatAreClosedOrFullLoseNoPicture) {
   const Folder folder;
@@ -203,68 +216,6 @@ TEST(Surroundings, MayHaveLongPaths) {
   const std::string longer = deep + deep + "out.exr";
   expectError(folder.pbrt("scene.pbrt --outfile " + longer), 4, "cannot .*: File name too long");
 }
-
-TEST(Film, OfMoreThanThereIsRoomForIsRefusedWithFigures) {
-  const Folder folder;
-  folder.write("scene.pbrt", scene("Shape \"sphere\"", 65536));
-  const std::string figures =
-      "a film of 65536 x 65536 pixels needs \\d{3}\\.\\d GiB of memory; there is room for "
-      "\\d+\\.\\d GiB";
-  expectError(folder.pbrt("scene.pbrt"), 3, figures);
-  expectError(folder.pbrt("scene.pbrt --aov variance"), 3, figures);
-  EXPECT_EQ(folder.pbrt("scene.pbrt --quiet --pixelbounds 0,64,0,64").code, 0);
-}
-
-// Sanitizers take more addresses than these limits allow.
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-
-TEST(Film, IsHeldToTheLimitOfTheProcess) {
-  const Folder folder;
-  folder.write("scene.pbrt", scene("Shape \"sphere\"", 8192));
-  expectError(shell(folder, "ulimit -v 1000000; ", "scene.pbrt"), 3,
-              "a film of 8192 x 8192 pixels needs \\d+\\.\\d GiB of memory; there is room for "
-              "1.0 GiB");
-}
-
-TEST(Threads, ThatTheSystemRefusesAreAnError) {
-  const Folder folder;
-  folder.write("scene.pbrt", scene());
-  expectError(shell(folder, "ulimit -v 2000000; ", "scene.pbrt --nthreads 4000"), 4,
-              "the system lets this process start \\d+ threads, not 4000: ");
-}
-
-class Memory : public testing::TestWithParam<std::pair<const char*, std::string>> {};
-
-// Whatever it is that finds none.
-TEST_P(Memory, ThatIsShortIsAnErrorOrEnough) {
-  const Folder folder;
-  folder.write("scene.pbrt", GetParam().second);
-  bool failed = false;
-  for (int megabytes = 120; megabytes <= 280; megabytes += 16) {
-    const std::string limit = "ulimit -v " + std::to_string(megabytes * 1000) + "; ";
-    const Outcome outcome = shell(folder, limit, "scene.pbrt --quiet --nthreads 2");
-    if (outcome.code == 0) continue;
-    failed = true;
-    SCOPED_TRACE(limit);
-    expectError(outcome, outcome.code == 4 ? 4 : 3, "memory|threads");
-  }
-  EXPECT_TRUE(failed) << "the test needs a scene that takes more";
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Of, Memory,
-    testing::Values(
-        std::pair("Little", scene()),
-        std::pair("Spheres", scene(times(30000, "Translate .01 0 0 Shape \"sphere\""))),
-        std::pair("Instances", scene("ObjectBegin \"a\"\nShape \"sphere\"\nObjectEnd\n" +
-                                     times(30000, "Translate .01 0 0 ObjectInstance \"a\""))),
-        std::pair("Subdivision",
-                  scene("Shape \"loopsubdiv\" \"integer levels\" 8 \"integer indices\" "
-                        "[0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" [0 0 0 1 0 0 0 1 0 0 0 1]")),
-        std::pair("Film", scene("Shape \"sphere\"", 700))),
-    [](const auto& test) { return test.param.first; });
-
-#endif
 
 }  // namespace
 }  // namespace pbrt::test

@@ -42,7 +42,7 @@ struct Rendering {
     run.cpuSeconds += clock.cpuSeconds();
     run.rays += control.rays;
     run.samples = endSample;
-    badSamples += control.badSamples;
+    badSamples += control.faults.count();
   }
 
   // As many whole samples as come nearest to the time, one at least.

@@ -100,7 +100,7 @@ std::uint64_t Stage::render(const Integrator& integrator, const Options& options
   control.samplesPerPixel = options.samples;
   control.threads = options.threads;
   integrator.render(*this, *sampler(options.seed, options.samples), film, control);
-  return control.badSamples;
+  return control.faults.count();
 }
 
 std::vector<std::unique_ptr<Stage>> stages(const Subject& subject) {

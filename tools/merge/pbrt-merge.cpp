@@ -49,9 +49,11 @@ int run(const Options& o) {
   if (o.quiet) return 0;
   if (!lacks.empty()) fmt::print(stderr, "warning: the film is not whole: {}\n", lacks);
   for (const auto& output : o.outputs) fmt::print("{}\n", output.string());
-  if (o.check)
-    fmt::print("{} films: {} samples per pixel\n", o.films.size(),
-               film.info().endSample - film.info().firstSample);
+  if (o.check) {
+    const std::uint32_t samples = film.info().endSample - film.info().firstSample;
+    fmt::print("{} film{}: {} sample{} per pixel\n", o.films.size(), o.films.size() == 1 ? "" : "s",
+               samples, samples == 1 ? "" : "s");
+  }
   return 0;
 }
 

@@ -1,0 +1,110 @@
+// pbrt-merge as people use it, with films that pbrt has written.
+
+#include "tests/command.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "core/base/image.h"
+#include "tests/tools/foggy_scene.h"
+
+namespace pbrt::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MergeCommand : public testing::Test {
+ protected:
+  MergeCommand() { folder_.write("scene.pbrt", foggyScene()); }
+
+  void render(const std::string& arguments) const {
+    const Outcome o = folder_.pbrt("--quiet scene.pbrt --aov variance,normal " + arguments);
+    ASSERT_EQ(o.code, 0) << o.err;
+  }
+  Outcome merge(const std::string& arguments, const std::string& before = "") const {
+    return folder_.command(before + " " PBRT_BUILD_DIR "/bin/pbrt-merge " + arguments);
+  }
+  // All but the seconds.
+  void expectSamePicture(const std::string& a, const std::string& b) const {
+    Image x = readExr(folder_.path() / a), y = readExr(folder_.path() / b);
+    x.attributes.erase("renderTimeSeconds");
+    y.attributes.erase("renderTimeSeconds");
+    EXPECT_EQ(x.attributes, y.attributes);
+    EXPECT_EQ(x.names, y.names);
+    EXPECT_EQ(x.window, y.window);
+    for (std::size_t i = 0; i < std::min(x.names.size(), y.names.size()); ++i)
+      EXPECT_EQ(std::memcmp(x.channels[i].data(), y.channels[i].data(),
+                            std::min(x.channels[i].size(), y.channels[i].size()) * sizeof(float)),
+                0)
+          << x.names[i];
+  }
+
+  const Folder folder_;
+};
+
+TEST_F(MergeCommand, GivesThePictureOfOneProcess) {
+  render("--samples 0..4 --spp 4 --outfile whole.exr --outfile whole.film");
+  render("--samples 0..1 --spp 4 --outfile a.film --nthreads 1");
+  render("--samples 1..4 --spp 4 --outfile b.film --pixelbounds 0,70,0,21");
+  render("--samples 1..4 --spp 4 --outfile c.film --pixelbounds 0,70,21,50");
+  const Outcome o = merge("c.film a.film b.film --outfile merged.exr --outfile merged.film");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(o.out, "merged.exr\nmerged.film\n");
+  EXPECT_EQ(o.err, "");
+  expectSamePicture("merged.exr", "whole.exr");
+  EXPECT_EQ(merge("whole.film --outfile again.exr").code, 0);
+  expectSamePicture("again.exr", "whole.exr");
+
+  // A part makes room for the whole.
+  EXPECT_EQ(merge("a.film b.film c.film --quiet --outfile a.film").out, "");
+  EXPECT_EQ(merge("a.film --outfile last.exr").code, 0);
+  expectSamePicture("last.exr", "whole.exr");
+  // What is merged can be gone on from.
+  render("--samples 0..6 --spp 4 --outfile six.exr");
+  render("--samples 0..6 --spp 4 --outfile resumed.exr --checkpoint a.film --resume");
+  expectSamePicture("resumed.exr", "six.exr");
+}
+
+TEST_F(MergeCommand, SaysWhatIsWrong) {
+  render("--samples 0..1 --outfile a.film");
+  render("--samples 1..2 --outfile b.film --seed 5");
+  EXPECT_EQ(merge("").code, 2);
+  EXPECT_EQ(merge("a.film").code, 2);
+  EXPECT_EQ(merge("--outfile x.exr").code, 2);
+  EXPECT_EQ(merge("a.film --check --outfile x.exr").code, 2);
+
+  Outcome o = merge("a.film b.film --outfile x.exr");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_EQ(o.err,
+            "error: b.film is no part of the same render as a.film: it has another seed: 5, not "
+            "0\n");
+  o = merge("a.film --check");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.err, "warning: the film is not whole: it holds --samples 0..1 of --samples 0..16\n");
+  EXPECT_EQ(o.out, "1 film: 1 sample per pixel\n");
+  EXPECT_EQ(merge("a.film --check --quiet").err, "");
+  EXPECT_EQ(merge("scene.pbrt --outfile x.exr").code, 4);
+  EXPECT_EQ(merge("a.film --outfile nowhere/x.exr").code, 4);
+  EXPECT_EQ(merge("a.film --outfile nowhere/x.film").code, 4);
+  o = merge("a.film --outfile x.txt");
+  EXPECT_EQ(o.code, 4);
+  EXPECT_FALSE(fs::exists(folder_.path() / "x.exr"));
+  EXPECT_EQ(folder_.files(), 3U);
+}
+
+TEST_F(MergeCommand, OpensAsManyFilmsAsThereMayBe) {
+  render("--samples 0..1 --outfile a.film");
+  std::string many;
+  for (int i = 0; i < 30; ++i) many += " a.film";
+  // The soft limit is raised; the films overlap, but all are open.
+  Outcome o = merge(many + " --outfile x.exr", "sh -c 'ulimit -Sn 20; exec \"$@\"' -");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_NE(o.err.find("hold the same samples"), o.err.npos) << o.err;
+  o = merge(many + " --outfile x.exr", "sh -c 'ulimit -n 20; exec \"$@\"' -");
+  EXPECT_EQ(o.code, 4);
+  EXPECT_NE(o.err.find("30 films are more than this process may have open (20)"), o.err.npos)
+      << o.err;
+}
+
+}  // namespace
+}  // namespace pbrt::test
