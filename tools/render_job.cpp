@@ -118,7 +118,8 @@ void RenderJob::resume() {
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), o_.frame);
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
+                    o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
