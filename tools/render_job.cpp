@@ -150,12 +150,15 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
   while (least() < pass.end) {
     control_.stop = false;  // before its reasons are looked for: those that come later set it again
     if (Signals::interrupted()) return false;
-    const bool asked = Signals::takeRequest();
-    if (saves() && (asked || now() >= due_)) {
-      tryTo([&] { saveCheckpoint(); });
+    const bool due = saves() && now() >= due_;
+    if (Signals::takeRequest() || due) {
+      if (saves())
+        tryTo([&] { saveCheckpoint(); });
+      else
+        writeSoFar();
       due_ = now() + o_.checkpointEvery;
-    } else if (asked) {
-      writeSoFar();
+      Signals::takeRequest();  // what was asked for meanwhile has been done: nothing has changed
+      continue;
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));

@@ -106,6 +106,7 @@ TEST_F(SignalsTest, ManyRequestsDoNoHarm) {
   Running render(folder, "--quiet --spp 8 --outfile out.exr --checkpoint c.film scene.pbrt");
   render.untilItHandles(SIGUSR1).until([&] {
     render.send(SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return false;
   });
   const Outcome outcome = render.end();
