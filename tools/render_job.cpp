@@ -28,6 +28,18 @@ std::string inWords(const Bounds2i& window) {
   return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
 }
 
+// What went wrong with it; empty: nothing.
+std::optional<Error> failureOf(const std::function<void()>& write) {
+  try {
+    write();
+    return {};
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error("out of memory for a picture of this size");
+  }
+}
+
 void note(const Options& o, const std::string& message) {
   if (!o.quiet) printError(format({Severity::note, message}));
 }
@@ -106,7 +118,8 @@ void RenderJob::resume() {
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height());
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
+                    o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
@@ -127,7 +140,7 @@ bool RenderJob::run() {
     }
   }
   progress.end(Stage::done);
-  return true;
+  return whole_ = true;
 }
 
 // Returns false if a signal asks the render to end before the pass does.
@@ -159,24 +172,22 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
-  const bool any = most() > goal_.firstSample;
-  std::optional<Error> unsaved;
-  if (saves() && control_.samplesDone > 0) try {
-      saveCheckpoint();
-    } catch (const Error& error) {
-      unsaved = error;
-    }
-  try {
-    if (any) writeOutputs();
-  } catch (const Error& error) {
-    if (!saves() || unsaved) throw;
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+  std::optional<Error> unsaved, unwritten;
+  if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
+  if (mayWrite()) unwritten = failureOf([&] { writeOutputs(); });
+  if (unwritten && saves() && !unsaved) {
+    std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
     diagnostics.push_back(
         {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
-    throw Error(std::move(diagnostics), error.failure());
+    throw Error(std::move(diagnostics), unwritten->failure());
   }
+  if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
-  return any;
+  return mayWrite();
+}
+
+bool RenderJob::mayWrite() const {
+  return most() > goal_.firstSample && (whole_ || !o_.frame);
 }
 
 void RenderJob::saveCheckpoint() {
@@ -191,37 +202,34 @@ void RenderJob::adviseToResume() const {
 void RenderJob::writeOutputs() const {
   const FilmInfo info = this->info();
   std::optional<Image> image;
-  std::optional<Error> failure;  // the first; the others are written all the same
-  for (const std::string& output : outputs_) try {
-      if (isFilm(output)) {
-        writeFilm(output, scene_.film(), info);
-        continue;
-      }
-      if (!image) {
-        const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-        image = scene_.film().image(~notStored);
-        image->attributes = pictureAttributes(info);
-      }
-      writeImage(output, *image);
-    } catch (const Error& error) {
-      if (!failure) failure = error;
+  const auto write = [&](const std::string& output) {
+    if (isFilm(output)) return writeFilm(output, scene_.film(), info);
+    if (!image) {
+      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
+      image = scene_.film().image(~notStored);
+      image->attributes = pictureAttributes(info);
     }
-  if (failure) throw *failure;
+    writeImage(output, *image);
+  };
+  std::optional<Error> first;  // failure; the other outputs are written all the same
+  for (const std::string& output : outputs_) {
+    const std::optional<Error> failure = failureOf([&] { write(output); });
+    if (!first) first = failure;
+  }
+  if (first) throw *first;
 }
 
 void RenderJob::writeSoFar() const {
-  if (most() > goal_.firstSample) tryTo([&] { writeOutputs(); });
+  if (mayWrite()) tryTo([&] { writeOutputs(); });
 }
 
 // Errors become warnings: it is tried again later.
 void RenderJob::tryTo(const std::function<void()>& write) const {
-  try {
-    write();
-  } catch (const Error& error) {
-    for (Diagnostic d : error.diagnostics()) {
-      d.severity = Severity::warning;
-      o_.build.report(d);
-    }
+  const std::optional<Error> failure = failureOf(write);
+  if (!failure) return;
+  for (Diagnostic d : failure->diagnostics()) {
+    d.severity = Severity::warning;
+    o_.build.report(d);
   }
 }
 
@@ -255,7 +263,7 @@ std::string RenderJob::interruption() const {
   const auto film = std::ranges::find_if(outputs_, isFilm);
   return fmt::format("interrupted at {}; {}", progress(),
                      !o_.checkpoint.empty() ? "go on with --resume"
-                     : film != outputs_.end()
+                     : film != outputs_.end() && mayWrite()
                          ? fmt::format("go on with --checkpoint {} --resume", *film)
                          : "without --checkpoint, it cannot be continued");
 }

@@ -149,6 +149,7 @@ FilmInfo readFilmHeader(std::string_view text) {
 
   info.firstSample = integer<std::uint32_t>(json.at("firstSample"));
   info.endSample = integer<std::uint32_t>(json.at("endSample"), info.firstSample);
+  info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   for (const Json& end : json.at("reached"))
     info.reached.push_back(integer<std::uint32_t>(end, info.endSample));
   info.passEnd = integer<std::uint32_t>(json.at("passEnd"));

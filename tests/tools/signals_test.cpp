@@ -62,7 +62,7 @@ TEST_F(SignalsTest, WithoutACheckpointThePictureIsLeft) {
 
 TEST_F(SignalsTest, ThePictureOfNoSampleIsNotWritten) {
   folder.write("out.exr", "old");
-  Running render(folder, kLong + std::string("--width 4000 --nthreads 1"));
+  Running render(folder, kLong + std::string("--width 1000 --nthreads 1"));
   render.untilItHandles(SIGTERM).send(SIGTERM);
   const Outcome outcome = render.end();
   EXPECT_EQ(outcome.code, 75);
