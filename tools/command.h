@@ -46,6 +46,12 @@ inline int outputFailed(int reason) {
   return static_cast<int>(Failure::io);
 }
 
+// Tells an error, and returns its exit code.
+inline int tell(const Error& error) {
+  for (const Diagnostic& d : error.diagnostics()) complain(format(d));
+  return static_cast<int>(error.failure());
+}
+
 // Parses the words of the command line (the last first, as CLI11 wants them), then calls body(),
 // which returns the exit code. Errors are printed and become exit codes: those of Failure, 3 if
 // memory is short, 4 if the system refuses something, `bug` for what should not be.
@@ -61,8 +67,7 @@ int runCommand(CLI::App& app, std::vector<std::string> words, Body body, int bug
     const int code = body();
     return std::fflush(stdout) == 0 ? code : outputFailed(errno);
   } catch (const Error& error) {
-    for (const Diagnostic& d : error.diagnostics()) complain(format(d));
-    return static_cast<int>(error.failure());
+    return tell(error);
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "error: out of memory: there is room for %.1f GiB\n",
                  static_cast<double>(memoryLimit()) / 0x1p30);

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "command.h"
+#include "frames.h"
 
 namespace pbrt {
 
@@ -83,6 +84,17 @@ void defineOptions(CLI::App& app, Options& o) {
       ->take_all()
       ->allow_extra_args(false)
       ->check(CLI::IsMember(std::vector<std::string>(aovNames().begin(), aovNames().end())));
+  app.add_option(
+      "--frames", o.frameList,
+      "Render frames of an animation, one after the other: 7, 1-240, 1-240:10 (every tenth) or "
+      "1-10,20. A run of # becomes the frame's number, in the names of scenes and outputs and in "
+      "all strings of the scene: --outfile out/####.exr");
+  app.add_option("--fps", o.framesPerSecond,
+                 "Frames per second: frame k shows the scene k / FPS seconds later (default: its "
+                 "time stands still)")
+      ->check(positiveNumber());
+  app.add_flag("--skip-existing", o.skipExisting,
+               "Leave out frames whose pictures are there already");
   app.add_option("--seed", o.build.seed, "Seed of all random numbers (default 0)");
   app.add_option("--nthreads", o.build.threads,
                  "Exactly so many threads work, above the number of cores, too (default: the cores "
@@ -187,11 +199,21 @@ void finishOptions(Options& o) {
   }
   if (o.files.empty()) o.files = {"-"};
   if (o.files[0] != "-") o.build.folder = std::filesystem::path(o.files[0]).parent_path();
+  if (o.frameList) o.frames = readFrames(*o.frameList);
+  if (!o.frames.empty())
+    checkFrames(o);
+  else if (o.skipExisting || o.framesPerSecond > 0)
+    throw Error("--skip-existing and --fps are about --frames", Failure::usage);
   const Severity least = o.quiet || o.logLevel == "error" ? Severity::error
                          : o.logLevel == "verbose"        ? Severity::note
                                                           : Severity::warning;
   o.reports = std::make_shared<Reports>(least);
   o.build.permissive = o.permissive || o.check;
+  renewReports(o);
+}
+
+void renewReports(Options& o) {
+  o.reports = std::make_shared<Reports>(o.reports->least());
   o.build.report = [reports = o.reports](const Diagnostic& d) { reports->add(d); };
 }
 

@@ -13,6 +13,11 @@ namespace pbrt {
 struct Options {
   std::vector<std::string> files;
   std::vector<std::string> outputs;
+  std::optional<std::string> frameList;
+  std::vector<int> frames;     // of an animation; for each there are options of its own, with
+  std::optional<int> frame;    // its number, which is in all names by then
+  double framesPerSecond = 0;  // by which the scene's time goes on; 0: it stands still
+  bool skipExisting = false;
   BuildOptions build;
   std::string dialect;
   std::vector<float> cropWindow;
@@ -48,6 +53,9 @@ std::vector<std::string> words(int argc, char** argv);
 
 // What the words mean once all are read. Throws Error, Failure::usage.
 void finishOptions(Options& o);
+
+// Reports of `o` begin anew: nothing has been told or counted.
+void renewReports(Options& o);
 
 // When the render ends. Where the command line names no samples, they are the scene's, or any
 // number if time or error end it.

@@ -6,6 +6,7 @@
 #include "core/parse/format.h"
 #include "core/plugin/culprit.h"
 #include "crash.h"
+#include "frames.h"
 #include "listing.h"
 #include "options.h"
 #include "reading.h"
@@ -14,10 +15,10 @@
 namespace pbrt {
 namespace {
 
-int formatScene(const Options& o) {
+int formatScene(const Options& o, PluginLoader& /*loader*/) {
   Formatter formatter;
   std::string text;
-  Parser parser([&](Directive&& d) { text += formatter.print(d); }, includes(o));
+  Parser parser([&](Directive&& d) { text += formatter.print(d); }, includes(o), o.frame);
   parse(parser, o.files);
   fmt::print("{}", text);
   return judge(o);
@@ -25,7 +26,7 @@ int formatScene(const Options& o) {
 
 int check(const Options& o, PluginLoader& loader) {
   SceneReader reader(loader, o.build);
-  Parser parser([&](Directive&& d) { reader.read(std::move(d)); }, includes(o));
+  Parser parser([&](Directive&& d) { reader.read(std::move(d)); }, includes(o), o.frame);
   parse(parser, o.files);
   const auto scene = reader.finish();
   const DetectedDialect& dialect = reader.dialect();
@@ -37,18 +38,17 @@ int check(const Options& o, PluginLoader& loader) {
 }
 
 int run(const Options& o) {
+  const auto carryOut = o.check ? check : o.format ? formatScene : render;
   PluginLoader loader(PluginLoader::searchPath(o.pluginPath));
   if (o.listPlugins)
     fmt::print("{}", listPlugins(loader));
   else if (!o.describe.empty())
     fmt::print("{}", o.describe[0] == "all" ? describeAll(loader)
                                             : describePlugin(loader, o.describe[0], o.describe[1]));
-  else if (o.check)
-    return check(o, loader);
-  else if (o.format)
-    return formatScene(o);
+  else if (!o.frames.empty())
+    return forFrames(o, carryOut);
   else
-    return render(o, loader);
+    return carryOut(o, loader);
   return 0;
 }
 

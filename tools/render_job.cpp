@@ -118,7 +118,8 @@ void RenderJob::resume() {
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height());
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
+                    o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
@@ -139,7 +140,7 @@ bool RenderJob::run() {
     }
   }
   progress.end(Stage::done);
-  return true;
+  return whole_ = true;
 }
 
 // Returns false if a signal asks the render to end before the pass does.
@@ -149,12 +150,15 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
   while (least() < pass.end) {
     control_.stop = false;  // before its reasons are looked for: those that come later set it again
     if (Signals::interrupted()) return false;
-    const bool asked = Signals::takeRequest();
-    if (saves() && (asked || now() >= due_)) {
-      tryTo([&] { saveCheckpoint(); });
+    const bool due = saves() && now() >= due_;
+    if (Signals::takeRequest() || due) {
+      if (saves())
+        tryTo([&] { saveCheckpoint(); });
+      else
+        writeSoFar();
       due_ = now() + o_.checkpointEvery;
-    } else if (asked) {
-      writeSoFar();
+      Signals::takeRequest();  // what was asked for meanwhile has been done: nothing has changed
+      continue;
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
@@ -171,10 +175,9 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
-  const bool any = most() > goal_.firstSample;
   std::optional<Error> unsaved, unwritten;
   if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
-  if (any) unwritten = failureOf([&] { writeOutputs(); });
+  if (mayWrite()) unwritten = failureOf([&] { writeOutputs(); });
   if (unwritten && saves() && !unsaved) {
     std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
     diagnostics.push_back(
@@ -183,7 +186,11 @@ bool RenderJob::finish() {
   }
   if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
-  return any;
+  return mayWrite();
+}
+
+bool RenderJob::mayWrite() const {
+  return most() > goal_.firstSample && (whole_ || !o_.frame);
 }
 
 void RenderJob::saveCheckpoint() {
@@ -216,7 +223,7 @@ void RenderJob::writeOutputs() const {
 }
 
 void RenderJob::writeSoFar() const {
-  if (most() > goal_.firstSample) tryTo([&] { writeOutputs(); });
+  if (mayWrite()) tryTo([&] { writeOutputs(); });
 }
 
 // Errors become warnings: it is tried again later.
@@ -259,7 +266,7 @@ std::string RenderJob::interruption() const {
   const auto film = std::ranges::find_if(outputs_, isFilm);
   return fmt::format("interrupted at {}; {}", progress(),
                      !o_.checkpoint.empty() ? "go on with --resume"
-                     : film != outputs_.end()
+                     : film != outputs_.end() && mayWrite()
                          ? fmt::format("go on with --checkpoint {} --resume", *film)
                          : "without --checkpoint, it cannot be continued");
 }

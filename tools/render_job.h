@@ -34,7 +34,8 @@ class RenderJob {
   // should be saved now and then is.
   bool run();
   // Saves the checkpoint, then pictures and films, of the samples that there are; returns whether
-  // there are any. If one cannot be written the others are. Throws Error.
+  // it did so: what has the name of a frame of an animation is whole, or not written. If one cannot
+  // be written the others are. Throws Error.
   bool finish();
 
   // Says where it ended before its goal was reached, and how to go on.
@@ -50,6 +51,7 @@ class RenderJob {
   void writeSoFar() const;
   void tryTo(const std::function<void()>& write) const;
   FilmInfo info() const;
+  bool mayWrite() const;
   bool saves() const { return !o_.checkpoint.empty(); }
   std::string progress() const;                           // "12 to 64 of 64 samples per pixel"
   std::uint64_t samplesSince(std::uint32_t first) const;  // of all pixels together
@@ -66,6 +68,7 @@ class RenderJob {
   Signals& signals_;
   double start_;               // as now() has it, earlier by what earlier runs took
   double due_;                 // when the next checkpoint is
+  bool whole_ = false;         // the goal is reached
   std::uint32_t passEnd_ = 0;  // of the pass in progress
 };
 

@@ -36,7 +36,8 @@ int render(const Options& o, PluginLoader& loader) {
     step();
     t.build += now() - start;
   };
-  Parser parser([&](Directive&& d) { build([&] { reader.read(std::move(d)); }); }, includes(o));
+  Parser parser([&](Directive&& d) { build([&] { reader.read(std::move(d)); }); }, includes(o),
+                o.frame);
   parse(parser, o.files);
   std::unique_ptr<Scene> scene;
   build([&] { scene = reader.finish(); });

@@ -18,6 +18,7 @@ class Reports {
   explicit Reports(Severity least) : least_(least) {}
 
   void add(const Diagnostic& d);
+  Severity least() const { return least_; }
   std::size_t errors() const { return counts_[static_cast<std::size_t>(Severity::error)]; }
 
  private:

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "core/base/file.h"
+#include "core/base/numbered_name.h"
 #include "core/parse/scanner.h"
 
 namespace pbrt {
@@ -22,7 +23,25 @@ std::filesystem::path realPath(const std::filesystem::path& path) {
   return std::filesystem::canonical(path, none);
 }
 
+// Puts the number of a frame into all strings.
+void insertNumber(Directive& d, int frame) {
+  const auto insert = [&](std::string& text) { text = numbered(text, frame); };
+  std::ranges::for_each(d.words, insert);
+  for (Param& p : d.params)
+    if (auto* strings = std::get_if<std::vector<std::string>>(&p.values))
+      std::ranges::for_each(*strings, insert);
+}
+
 }  // namespace
+
+Parser::Parser(DirectiveSink sink, Reporter passOver, std::optional<int> frame)
+    : sink_(std::move(sink)), passOver_(std::move(passOver)), frame_(frame) {
+  if (!frame) return;
+  sink_ = [inner = std::move(sink_), frame](Directive&& d) {
+    insertNumber(d, *frame);
+    inner(std::move(d));
+  };
+}
 
 void Parser::file(const std::filesystem::path& path) {
   const Source& source = keep(path.string(), readFile(path, FileKind::any));
@@ -69,7 +88,8 @@ Parser::Included Parser::find(const Location& quoted) {
     throw Error(quoted, fmt::format("includes are nested more than {} deep", kDeepestInclude));
   if (++includes_ > kMostIncludes)
     throw Error(quoted, fmt::format("more than {} files are included", kMostIncludes));
-  const std::filesystem::path name = unquote(quoted);
+  const std::string text = unquote(quoted);
+  const std::filesystem::path name = frame_ ? numbered(text, *frame_) : text;
   std::filesystem::path path = open_.back().path.parent_path() / name;
   std::filesystem::path real = realPath(path);
   if (real.empty()) {

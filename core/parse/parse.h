@@ -15,8 +15,8 @@ namespace pbrt {
 class Parser {
  public:
   // With `passOver`, a file that cannot be included is reported there and left out.
-  explicit Parser(DirectiveSink sink, Reporter passOver = {})
-      : sink_(std::move(sink)), passOver_(std::move(passOver)) {}
+  // With `frame`, each run of # in a quoted name or string becomes this number (numbered_name.h).
+  explicit Parser(DirectiveSink sink, Reporter passOver = {}, std::optional<int> frame = {});
 
   // Parses a file, perhaps gzipped, and all that it includes: found relative to the including file
   // or, as in pbrt-v3, to the first one; at most 32 deep and 100000 in all; a file that includes
@@ -48,6 +48,7 @@ class Parser {
 
   DirectiveSink sink_;
   Reporter passOver_;
+  std::optional<int> frame_;
   std::deque<Source> sources_;  // addresses stay valid
   // By the path without links, as a file has many names.
   std::map<std::filesystem::path, const Source*> files_;

@@ -80,6 +80,8 @@ void SceneBuilder::handle(Directive&& d) {
 }
 
 void SceneBuilder::carryOut(Directive&& d) {
+  if (options_.time && inWorld_ && d.kind == DirectiveKind::TransformTimes)
+    throw Error(d.where, "in an animation TransformTimes belongs before WorldBegin");
   if (transforms_.apply(d, factory_.dialect())) return;
   toThisGeneration(d);
   if (handleStack(d) || handleOption(d) || handleAttribute(d) || handleMedia(d)) return;
@@ -189,12 +191,13 @@ bool SceneBuilder::handleOption(Directive& d) {
     throw Error(d.where, fmt::format("{} belongs before WorldBegin", directiveName(d.kind)));
   if (d.kind == Option) setOption(d);
   if (slot == &camera_) {
-    cameraFromWorld_ = transforms_.current();
+    cameraFromWorld_ = transforms_.save().transform;
     transforms_.name("camera", cameraFromWorld_.inverse());
     cameraMedia_ = attributes_.media;
     cameraMediaNamed_ = media_.size();
   }
   if (slot) *slot = std::move(d);
+  if (slot == &camera_) setFrame();
   return true;
 }
 
@@ -225,10 +228,17 @@ void SceneBuilder::beginWorld(const Directive& d) {
   if (!stack_.empty())
     throw Error(d.where, fmt::format("WorldBegin inside {}", directiveName(stack_.back().begin)));
   inWorld_ = worldSeen_ = true;
+  transforms_.name("camera", cameraFromWorld_.inverse());
+  factory_.attempt([&] {
+    try {
+      cameraFromWorld_ = transforms_.inFrame(cameraFromWorld_.inverse()).inverse();
+    } catch (const Error& error) {
+      throw error.at(camera_->where);
+    }
+  });
   // Everything is built in a space whose origin is the camera, where floats are densest.
   const DPoint3 eye = cameraFromWorld_.start.inverse().point(DPoint3(0));
   const Transform renderFromWorld = Transform::translate(-eye);
-  transforms_.name("camera", cameraFromWorld_.inverse());
   transforms_.name("world", Transform());
   transforms_.setBase(renderFromWorld);
   makeIntegrator();

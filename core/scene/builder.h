@@ -21,7 +21,10 @@ struct BuildOptions {
   std::optional<std::array<int, 4>> pixelBounds;   // x0 x1 y0 y1 in pixels
   bool quick = false;        // a quarter of the resolution each way and of the samples
   std::optional<int> width;  // in pixels instead of the scene's; the height follows
-  AovSet aovs = 0;           // what the film stores beside what the scene asks for
+  // Of an animation: when the frame begins, in the scene's time. The shutter's times count from
+  // there, and what does not move while it is open, lights for one, stands where it then is.
+  std::optional<double> time;
+  AovSet aovs = 0;  // what the film stores beside what the scene asks for
   // Report errors of the scene and go on: what is wrong is left out, or something that can be seen
   // stands for it.
   bool permissive = false;

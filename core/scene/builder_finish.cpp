@@ -61,16 +61,29 @@ AovSet SceneBuilder::filmAovs(const Directive& film) const {
   return 0;
 }
 
+// When the camera's shutter opens and closes.
+std::array<float, 2> SceneBuilder::shutter() const {
+  std::array<float, 2> shutter = {0, 1};
+  if (camera_)
+    for (const Param& p : camera_->params)
+      if (const auto* v = std::get_if<std::vector<float>>(&p.values); v && v->size() == 1) {
+        if (p.name == "shutteropen") shutter[0] = v->front();
+        if (p.name == "shutterclose") shutter[1] = v->front();
+      }
+  return shutter;
+}
+
+void SceneBuilder::setFrame() {
+  if (!options_.time) return;
+  const auto [open, close] = shutter();
+  transforms_.setFrame(*options_.time, open, std::max(open, close));  // the camera refuses others
+}
+
 // pbrt-v4's sensor is exposed as long as the shutter is open, a second if nobody says more.
 float SceneBuilder::exposureTime() const {
   if (factory_.dialect() != Dialect::v4 || !camera_) return 1;
-  std::array<float, 2> shutter = {0, 1};
-  for (const Param& p : camera_->params)
-    if (const auto* v = std::get_if<std::vector<float>>(&p.values); v && v->size() == 1) {
-      if (p.name == "shutteropen") shutter[0] = v->front();
-      if (p.name == "shutterclose") shutter[1] = v->front();
-    }
-  return shutter[1] > shutter[0] ? shutter[1] - shutter[0] : 1;
+  const auto [open, close] = shutter();
+  return close > open ? close - open : 1;
 }
 
 Film::Settings SceneBuilder::filmSettings(Params& film) const {
@@ -153,6 +166,8 @@ void SceneBuilder::readFilm() {
   Film::Settings settings = filmSettings(film);
   factory_.attempt([&] { settings.aovs |= filmAovs(statement); });
   factory_.attempt([&] { film.refuseUnread(); });
+  if (const SamplingIntegrator* sampling = scene_->integrator_->sampling())
+    settings.block = sampling->blockWidth();
   scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, settings);
 }
 
@@ -192,6 +207,7 @@ void SceneBuilder::makeCamera(Point2i resolution) {
       }
     });
   scene_->camera_ = scene_->ownCamera_.get();
+  if (options_.time) scene_->attributes_["sceneTime"] = *options_.time;
   scene_->attributes_["worldToCamera"] = cameraFromWorld_.start.matrix();
   if (const auto screen = scene_->camera_->screenFromCamera())
     scene_->attributes_["worldToNDC"] = *screen * cameraFromWorld_.start.matrix();

@@ -28,12 +28,13 @@ void SceneBuilder::addLight(const Directive& d) {
                            defaultsFor(AttributeTarget::light, name).get()));
 }
 
-const Transform& SceneBuilder::startOf(const Directive& d) const {
-  if (transforms_.current().moves())
+Transform SceneBuilder::startOf(const Directive& d) const {
+  const TransformPair place = transforms_.current();
+  if (place.moves())
     factory_.report(Severity::warning, d.where,
                     fmt::format("a {} does not move: it stays where it is at the start",
                                 directiveName(d.kind)));
-  return transforms_.current().start;
+  return place.start;
 }
 
 Group& SceneBuilder::addGroup() {

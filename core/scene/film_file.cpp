@@ -187,7 +187,7 @@ void FilmWriter::write(std::span<const FilmPixel> row) {
 void FilmWriter::commit() {
   state_->putNumber(state_->sum);
   try {
-    state_->replacement->commit();
+    state_->replacement->commit(Durability::onDisk);
   } catch (const std::exception& error) {
     state_->fail(error.what());
   }

@@ -23,6 +23,23 @@ void TransformState::setBase(const Transform& base) {
   for (auto& entry : named_) entry.second = base * entry.second;
 }
 
+// Translation and stretch go linearly from end to end, and the rotation at even speed: so does each
+// part between its own ends. Cut out it is the same motion, and as long as one.
+TransformPair TransformState::inFrame(const TransformPair& motion) const {
+  if (!frame_ || !motion.moves()) return motion;
+  const AnimatedTransform way(motion);
+  const double start = times_.start, length = double{times_.end} - start;
+  const auto at = [&](float since) { return way.at((frame_->time + since - start) / length); };
+  return {at(frame_->open), at(frame_->close)};
+}
+
+MotionTimes TransformState::times() const {
+  if (!frame_) return times_;
+  const MotionTimes open = {std::max(static_cast<float>(times_.start - frame_->time), frame_->open),
+                            std::min(static_cast<float>(times_.end - frame_->time), frame_->close)};
+  return open.start < open.end ? open : MotionTimes();  // nothing moves
+}
+
 bool TransformState::apply(const Directive& d, Dialect dialect) {
   using enum DirectiveKind;
   const auto& x = d.numbers;

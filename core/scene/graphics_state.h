@@ -2,6 +2,7 @@
 // The transforms that the statements of a scene act on.
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "core/base/animated_transform.h"
@@ -24,7 +25,8 @@ class TransformState {
   // Throws Error for a transform that cannot be undone, or a name that is not there.
   bool apply(const Directive& d, Dialect dialect);
 
-  const TransformPair& current() const { return current_.transform; }
+  // As inFrame().
+  TransformPair current() const { return inFrame(current_.transform); }
   const Current& save() const { return current_; }
   void restore(const Current& saved) { current_ = saved; }
   const Transform& base() const { return base_; }
@@ -32,9 +34,21 @@ class TransformState {
   // from here on, and becomes the current transform.
   void setBase(const Transform& base);
   void name(const std::string& name, const TransformPair& t) { named_[name] = t; }
-  const MotionTimes& times() const { return times_; }
+  MotionTimes times() const;
+
+  // Only what happens while the shutter is open in a frame that begins at `time` is to be shown.
+  // From here on motions are that part of themselves, and times() count from `time`.
+  void setFrame(double time, float open, float close) { frame_ = {time, open, close}; }
+  // What is to be shown of a motion; without a frame all of it. Throws Error (without a place) if
+  // its ends cannot be blended.
+  TransformPair inFrame(const TransformPair& motion) const;
 
  private:
+  struct Frame {
+    double time = 0;
+    float open = 0, close = 0;  // from `time` on; open <= close
+  };
+
   // Applies `change`, Transform to Transform, to the active ones of the current two.
   template <class Change>
   void change(const Directive& d, Change change);
@@ -43,6 +57,7 @@ class TransformState {
   Current current_;
   std::map<std::string, TransformPair> named_;
   MotionTimes times_;
+  std::optional<Frame> frame_;
 };
 
 }  // namespace pbrt

@@ -26,6 +26,7 @@ class SceneBuilder {
     attributes_.material =
         std::make_shared<MaterialDefinition>(defaults_.material, ParamList{}, nullptr, Location{});
     shapes_.resting = &scene_->root_;
+    setFrame();
   }
 
   void handle(Directive&& d);
@@ -106,7 +107,7 @@ class SceneBuilder {
   void addInstance(const Directive& d);
   void addInstance(const Group& group, const AnimatedTransform& outer,
                    const AnimatedTransform& inner);
-  const Transform& startOf(const Directive& d) const;
+  Transform startOf(const Directive& d) const;
   void addLight(const Directive& d);
   void makeIntegrator();
   void movePixelBounds();
@@ -115,6 +116,8 @@ class SceneBuilder {
   void makeSampler(Point2i resolution);
   void makeCamera(Point2i resolution);
   AovSet filmAovs(const Directive& film) const;
+  std::array<float, 2> shutter() const;
+  void setFrame();
   float exposureTime() const;
   Film::Settings filmSettings(Params& film) const;
   Bounds2i cropBounds(Params& film, Point2i resolution) const;

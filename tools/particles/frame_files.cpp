@@ -11,19 +11,15 @@ namespace fs = std::filesystem;
 
 namespace pbrt {
 
-FrameFiles::FrameFiles(const std::string& pattern, int first, int last) {
+FrameFiles::FrameFiles(const std::string& pattern, int first, int last) : pattern_(pattern) {
   const auto refuse = [&](std::string_view reason) {
     throw Error(fmt::format("--out {}: {}", shown(pattern), reason), Failure::usage);
   };
-  const std::size_t begin = std::min(pattern.find('#'), pattern.size());
-  const std::size_t end = std::min(pattern.find_first_not_of('#', begin), pattern.size());
-  if (pattern.find('#', end) != std::string::npos || pattern.find('/', end) != std::string::npos)
+  const std::size_t runs = numberRuns(pattern);
+  if (runs > numberRuns(fs::path(pattern).filename().string()) || runs > 1)
     refuse("only one run of # in the file's name stands for the number of the frame");
-  if (begin == end && first != last)
+  if (runs == 0 && first != last)
     refuse("several frames need a name with # for their numbers, such as frames/####.png");
-  before_ = pattern.substr(0, begin);
-  after_ = pattern.substr(end);
-  digits_ = end - begin;
   suffix_ = fs::path(pattern).extension().string();
   for (char& c : suffix_)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
@@ -33,11 +29,6 @@ FrameFiles::FrameFiles(const std::string& pattern, int first, int last) {
     checkReplaceable(file(first));
   else
     checkWritable(file(first));
-}
-
-fs::path FrameFiles::file(int number) const {
-  if (digits_ == 0) return before_ + after_;
-  return before_ + fmt::format("{:0{}}", number, digits_) + after_;
 }
 
 void writePly(const fs::path& file, std::span<const surfels::Surfel> surfels) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "core/base/image.h"
+#include "core/base/numbered_name.h"
 #include "shapes/metaballs/surfels/simulation.h"
 
 namespace pbrt {
@@ -17,15 +18,14 @@ class FrameFiles {
   // could not be written.
   FrameFiles(const std::string& pattern, int first, int last);
 
-  std::filesystem::path file(int number) const;
+  std::filesystem::path file(int number) const { return numbered(pattern_, number); }
   // Surfels (.ply), not pictures.
   bool ofSurfels() const { return suffix_ == ".ply"; }
   // Pictures with all channels (.exr), not colours alone.
   bool ofChannels() const { return suffix_ == ".exr"; }
 
  private:
-  std::string before_, after_, suffix_;
-  std::size_t digits_ = 0;
+  std::string pattern_, suffix_;
 };
 
 // Writes a binary PLY file with a vertex for each surfel: x, y, z, nx, ny, nz, radius and density,

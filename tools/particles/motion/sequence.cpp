@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <map>
 
 #include "core/base/error.h"
+#include "core/base/numbered_name.h"
 #include "shapes/metaballs/atoms.h"
 #include "shapes/metaballs/particles/particles.h"
 #include "tools/particles/motion/match.h"
@@ -16,43 +16,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Names with a number of at least `digits` digits between two parts.
+// Numbered files of one folder.
 struct Pattern {
   fs::path folder;
-  std::string before, after;
-  std::size_t digits = 0;
+  std::string name;
 
-  explicit Pattern(const std::string& text) {
-    const fs::path path(text);
-    const std::string name = path.filename().string();
-    folder = path.parent_path();
-    const std::size_t begin = name.find('#'),
-                      end = std::min(name.find_first_not_of('#', begin), name.size());
-    if (begin == std::string::npos || name.find('#', end) != std::string::npos)
+  explicit Pattern(const fs::path& path)
+      : folder(path.parent_path()), name(path.filename().string()) {
+    if (numberRuns(name) != 1)
       throw Error(fmt::format("\"{}\" is no name of numbered files: it needs one run of # for the "
                               "digits, as in fluid####.ply",
-                              shown(text)),
+                              shown(path.string())),
                   Failure::usage);
-    before = name.substr(0, begin);
-    after = name.substr(end);
-    digits = end - begin;
   }
 
-  fs::path file(int number) const {
-    return folder / fmt::format("{}{:0{}}{}", before, number, digits, after);
-  }
+  fs::path file(int number) const { return folder / numbered(name, number); }
 
   // The number in a name of this kind.
-  std::optional<int> number(const std::string& name) const {
-    if (!name.starts_with(before) || !name.ends_with(after) ||
-        name.size() < before.size() + digits + after.size())
-      return {};
-    const char* end = name.data() + name.size() - after.size();
-    int number = -1;
-    const auto read = std::from_chars(name.data() + before.size(), end, number);
-    const bool whole =
-        read.ec == std::errc() && read.ptr == end && number >= 0 && number < kMostFrames;
-    return whole && file(number).filename() == name ? std::optional(number) : std::nullopt;
+  std::optional<int> number(const std::string& file) const {
+    const auto number = numberIn(name, file);
+    return number && *number < kMostFrames ? number : std::nullopt;
   }
 };
 
