@@ -67,7 +67,7 @@ class Message {
 };
 
 void sayWhere(Message& message) {
-  const SamplePlace& at = currentSample();
+  const SamplePlace& at = currentSample;
   const Location making = Making::current();
   if (at.block > 0) {
     message << (at.block > 1 ? " at a pixel of the block from (" : " at pixel (") << at.pixel.x

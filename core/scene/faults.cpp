@@ -8,9 +8,9 @@
 
 namespace pbrt {
 
-namespace {
+constinit thread_local SamplePlace currentSample;
 
-thread_local SamplePlace current __attribute__((tls_model("initial-exec")));
+namespace {
 
 bool before(const Fault& a, const Fault& b) {
   const auto key = [](const SamplePlace& p) { return std::tuple(p.sample, p.pixel.y, p.pixel.x); };
@@ -64,13 +64,6 @@ std::string describe(const FaultLog& faults) {
                             f.culprit ? f.culprit->label() : "some part",
                             f.thrown.empty() ? "gave what is not a number, or infinite"
                                              : "threw: " + f.thrown);
-}
-
-const SamplePlace& currentSample() {
-  return current;
-}
-void setCurrentSample(const SamplePlace& at) {
-  current = at;
 }
 
 }  // namespace pbrt

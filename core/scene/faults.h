@@ -57,7 +57,6 @@ class FaultLog {
 std::string describe(const FaultLog& faults);
 
 // The sample that this thread works on, for who tells of a crash: a handler of signals may ask.
-const SamplePlace& currentSample();
-void setCurrentSample(const SamplePlace& at);
+extern constinit thread_local SamplePlace currentSample __attribute__((tls_model("initial-exec")));
 
 }  // namespace pbrt

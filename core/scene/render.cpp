@@ -77,10 +77,6 @@ struct TileJob {
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
-    const int width = pixels.width();
-    const auto at = [&](int i) {
-      return SamplePlace{pixels.lo + Point2i(i % width, i / width), index, 1};
-    };
     int n = 0;
     for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
       for (int x = pixels.lo.x; x < pixels.hi.x; ++x, ++n) {
@@ -89,23 +85,26 @@ struct TileJob {
         if (attempt(place, [&] { sees = start(place, worker, n); }) && !sees) add({place});
         if (!sees) blind(worker, n);
       }
-    look({pixels.lo, index, blockWidth}, n, width, at, worker);
-    for (int i = 0; i < n; ++i) {
-      const SamplePlace place = at(i);
-      Sample sample;
-      if (!attempt(place, [&] { sample = take(worker, i); })) sample = {};
-      worker.scratch.release();
-      if (!sample.finite) {
-        add({place});
-        sample = {};
+    look(pixels, index, worker);
+    n = 0;
+    for (int y = pixels.lo.y; y < pixels.hi.y; ++y)
+      for (int x = pixels.lo.x; x < pixels.hi.x; ++x, ++n) {
+        const SamplePlace place{{x, y}, index, 1};
+        Sample sample;
+        if (!attempt(place, [&] { take(worker, n, sample); })) {
+          sample = {};
+          worker.scratch.release();
+        } else if (!sample.finite) {
+          add({place});
+          sample = {};
+        }
+        film.add(tile, worker.samples[n].film, sample.L, sample.alpha);
+        if (!sample.surface) continue;
+        if (allFinite(*sample.surface))
+          film.add(tile, place.pixel, index, *sample.surface);
+        else
+          add({place});
       }
-      film.add(tile, worker.samples[i].film, sample.L, sample.alpha);
-      if (sample.surface && !allFinite(*sample.surface)) {
-        add({place});
-        sample.surface.reset();
-      }
-      if (sample.surface) film.add(tile, place.pixel, index, *sample.surface);
-    }
   }
 
   // What a sample gives; by itself one that counts as black.
@@ -120,7 +119,7 @@ struct TileJob {
   bool start(const SamplePlace& place, Worker& worker, int i) const {
     Sampler& sampler = *worker.samplers[i];
     CameraSample& sample = worker.samples[i];
-    sample.film = inPixel(place.pixel, Point2(0.5F));
+    sample.film = Point2(place.pixel) + 0.5F;  // unless the sampler says better
     sampler.start(place.pixel, place.sample);
     const Point2 u = sampler.pixel2D();
     if (!(u.x >= 0 && u.y >= 0 && u.x < 1 && u.y < 1)) return false;
@@ -129,8 +128,10 @@ struct TileJob {
     if (world.moves()) sample.time = sampler.get1D();
     CameraRay& camera = worker.cameraRays[i];
     camera = world.camera().generate(sample, world.filters());
-    if (!std::isfinite(camera.weight) ||
-        (camera.weight > 0 && !(isFinite(camera.ray.o) && isFinite(camera.ray.d))))
+    // Zero times what is not a number, or infinite, is no number.
+    const Vec3 zero(0);
+    if (camera.weight * 0 != 0 ||
+        (camera.weight > 0 && glm::dot(camera.ray.o, zero) + glm::dot(camera.ray.d, zero) != 0))
       return false;
     // One that meets nothing, for what may be no ray.
     if (!(camera.weight > 0)) camera.ray = RayDifferential({.d = {0, 0, 1}, .tMax = 0});
@@ -146,17 +147,17 @@ struct TileJob {
   }
 
   // Finds the hits of a block. If that throws, it is each ray's own, as nobody knows whose it was.
-  template <class Place>
-  void look(const SamplePlace& block, int n, int width, const Place& at, Worker& worker) const {
-    setCurrentSample(block);
-    const auto count = static_cast<std::size_t>(n);
-    const std::span rays(worker.rays.data(), count);
-    const std::span hits(worker.hits.data(), count);
+  void look(const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
+    currentSample = {pixels.lo, index, blockWidth};
+    const int width = pixels.width();
+    const auto n = static_cast<std::size_t>(width * pixels.height());
+    const std::span rays(worker.rays.data(), n);
+    const std::span hits(worker.hits.data(), n);
     try {
       integrator.look(world, rays, width, hits);
     } catch (...) {
-      for (int i = 0; i < n; ++i)
-        if (!attempt(at(i), [&] {
+      for (int i = 0; i < static_cast<int>(n); ++i)
+        if (!attempt({pixels.lo + Point2i(i % width, i / width), index, 1}, [&] {
               hits[i] = {};
               integrator.look(world, rays.subspan(i, 1), 1, hits.subspan(i, 1));
             }))
@@ -164,30 +165,30 @@ struct TileJob {
     }
   }
 
-  // Follows the ray of lane i.
-  Sample take(Worker& worker, int i) const {
+  // Follows the ray of lane i; `s` is as new.
+  void take(Worker& worker, int i, Sample& s) const {
     CameraRay& camera = worker.cameraRays[i];
     Hit& hit = worker.hits[i];
-    Sample s;
-    if (!(camera.weight > 0)) return s;
+    if (!(camera.weight > 0)) return;
     s.L =
         camera.weight * integrator.Li(world, camera.ray, hit, *worker.samplers[i], worker.scratch);
     worker.scratch.release();
     s.finite = isFinite(s.L);
-    if (!s.finite) return s;
+    if (!s.finite) return;
     const bool stores = film.stores(kOfSurface);
     const Point3 eye = camera.ray.o;
     if (world.bordersMedia() && (stores || isBlack(s.L))) passBorders(camera.ray, hit);
     // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
     s.alpha = !hit.found() && isBlack(s.L) ? 0 : 1;
-    if (hit.found() && stores) s.surface = firstSurface(eye, camera.ray, hit, worker.scratch);
-    return s;
+    if (!hit.found() || !stores) return;
+    s.surface = firstSurface(eye, camera.ray, hit, worker.scratch);
+    worker.scratch.release();
   }
 
   // Runs a part of a sample. False if it threw: that is entered then.
   template <class Work>
   bool attempt(const SamplePlace& place, const Work& work) const {
-    setCurrentSample(place);
+    currentSample = place;
     try {
       work();
       return true;
@@ -209,11 +210,12 @@ struct TileJob {
     Watch watch(integrator, world, sampler);
     TileJob job{watch.integrator(), watch.world(), film, control, differentialScale, 1};
     Worker worker(watch.sampler(), 1);
-    setCurrentSample(at);
+    currentSample = at;
     return watch.culprit([&] {
       if (!job.start(at, worker, 0)) return;
       watch.integrator().look(watch.world(), worker.rays, 1, worker.hits);
-      static_cast<void>(job.take(worker, 0));
+      Sample sample;
+      job.take(worker, 0, sample);
     });
   }
 
@@ -268,7 +270,7 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
         [&](const tbb::blocked_range<int>& range) {
           for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
             job.render(tile, workers.local());
-          setCurrentSample({});
+          currentSample = {};
         },
         tbb::simple_partitioner());
   });
@@ -276,7 +278,7 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
   // does not see into it.
   static_cast<void>(control.tilesDone.load());
   control.faults.locate([&](const SamplePlace& at) { return job.culprit(at, sampler); });
-  setCurrentSample({});
+  currentSample = {};
   if (control.faults.outOfMemory()) throw Error("out of memory: " + describe(control.faults));
   if (control.strict && control.faults.count() > 0)
     throw Error(describe(control.faults), Failure::plugin);
