@@ -152,7 +152,6 @@ FilmInfo readFilmHeader(std::string_view text) {
   info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   for (const Json& end : json.at("reached"))
     info.reached.push_back(integer<std::uint32_t>(end, info.endSample));
-  info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   require(info.reached.empty() || std::ranges::min(info.reached) == info.endSample);
 
   for (int i = 0; i < 3; ++i) info.origin[i] = number(json.at("origin").at(i));
