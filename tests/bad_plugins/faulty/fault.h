@@ -28,7 +28,7 @@ class Fault {
     if (kind_ == "eats-memory") throw std::bad_alloc();
     if (kind_ == "null") return *static_cast<volatile float*>(nothing_);
     if (kind_ == "aborts") std::abort();
-    if (kind_ == "divides") return static_cast<float>(1 / *static_cast<volatile int*>(&zero_));
+    if (kind_ == "divides") return static_cast<float>(100 / *static_cast<volatile int*>(&zero_));
     return static_cast<float>(overflow(0));
   }
 
