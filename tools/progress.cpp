@@ -8,8 +8,12 @@
 namespace pbrt {
 
 Progress::Progress(ProgressStyle style, const RenderControl& control, int pixels,
-                   std::optional<int> frame)
-    : style_(style), control_(control), pixels_(pixels) {
+                   std::uint32_t firstSample, std::optional<int> frame)
+    : style_(style),
+      control_(control),
+      pixels_(pixels),
+      firstSample_(firstSample),
+      pass_{firstSample, firstSample} {
   state_.frame = frame;
   if (style != ProgressStyle::none) thread_ = std::thread([this] { run(); });
 }
@@ -27,7 +31,7 @@ Progress::~Progress() {
 void Progress::begin(const Passes::Pass& pass, std::uint64_t samplesThere) {
   const std::lock_guard lock(mutex_);
   pass_ = pass;
-  if (!firstSample_) firstSample_ = pass.first;
+  begun_ = true;
   before_ = static_cast<double>(control_.samplesDone) - static_cast<double>(samplesThere);
   resting_ = false;
 }
@@ -58,7 +62,7 @@ void Progress::run() {
   using namespace std::chrono_literals;
   std::unique_lock lock(mutex_);
   while (!wake_.wait_for(lock, 100ms, [this] { return ended_; }))
-    if (firstSample_) show(look());
+    if (begun_) show(look());
 }
 
 ProgressState Progress::look() {
@@ -73,7 +77,7 @@ ProgressState Progress::look() {
   // This pass is the part to - from of the whole.
   const double later = pass_.to > pass_.from ? whole * (1 - pass_.to) / (pass_.to - pass_.from) : 0;
   state_.remaining = rate_.remaining(whole - there + later);
-  state_.samplesPerPixel = pass_.first - firstSample_.value_or(0) + there / pixels_;
+  state_.samplesPerPixel = pass_.first - firstSample_ + there / pixels_;
   state_.raysPerSecond = static_cast<double>(control_.rays) / std::max(seconds, 1e-3);
   return state_;
 }

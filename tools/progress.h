@@ -18,8 +18,9 @@ namespace pbrt {
 // standard output, no more than one a second. A thread of its own does so, which sleeps.
 class Progress {
  public:
-  // `pixels`: how many samples one sample per pixel is. `control` must outlive it.
-  Progress(ProgressStyle style, const RenderControl& control, int pixels,
+  // `pixels`: how many samples one sample per pixel is; `firstSample`: that of the whole render.
+  // `control` must outlive it.
+  Progress(ProgressStyle style, const RenderControl& control, int pixels, std::uint32_t firstSample,
            std::optional<int> frame = {});
   // Takes a bar away. Says nothing more.
   ~Progress();
@@ -46,15 +47,15 @@ class Progress {
   const ProgressStyle style_;
   const RenderControl& control_;
   const double pixels_;
+  const std::uint32_t firstSample_;
   const Clock::time_point start_ = Clock::now();
 
   std::mutex mutex_;  // of all that follows
   std::condition_variable wake_;
   ProgressState state_;
   Passes::Pass pass_;
-  std::optional<std::uint32_t> firstSample_;  // of the first pass
   double before_ = 0;  // samples that this control had taken when the pass began, less those there
-  bool resting_ = true, ended_ = false;
+  bool begun_ = false, resting_ = true, ended_ = false;
   RateEstimate rate_;
   double nextReport_ = 0;   // seconds since the start
   std::string percentage_;  // as it was reported last

@@ -19,13 +19,21 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-bool isFilm(const fs::path& file) {
-  return file.extension() == ".film";
-}
-
 // As --pixelbounds has it.
 std::string inWords(const Bounds2i& window) {
   return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
+}
+
+// What went wrong with it; empty: nothing.
+std::optional<Error> failureOf(const std::function<void()>& write) {
+  try {
+    write();
+    return {};
+  } catch (const Error& error) {
+    return error;
+  } catch (const std::bad_alloc&) {
+    return Error("out of memory for a picture of this size");
+  }
 }
 
 void note(const Options& o, const std::string& message) {
@@ -100,13 +108,20 @@ void RenderJob::resume() {
   control_.faults.addEarlier(found.badSamples);
   if (o_.strict && found.badSamples > 0) refuse(describe(control_.faults));
   adviseToResume();
+  const auto set = found.attributes.find("instructionSet");
+  if (set != found.attributes.end() && set->second != ImageAttribute(instructionSet()))
+    o_.build.report({Severity::warning,
+                     fmt::format("{} is from a processor with another instruction set: at edges of "
+                                 "shapes the picture may differ from that of one processor",
+                                 o_.checkpoint)});
   start_ -= found.seconds;
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
 
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
-  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), o_.frame);
+  Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
+                    o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
@@ -137,12 +152,15 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
   while (least() < pass.end) {
     control_.stop = false;  // before its reasons are looked for: those that come later set it again
     if (Signals::interrupted()) return false;
-    const bool asked = Signals::takeRequest();
-    if (saves() && (asked || now() >= due_)) {
-      tryTo([&] { saveCheckpoint(); });
+    const bool due = saves() && now() >= due_;
+    if (Signals::takeRequest() || due) {
+      if (saves())
+        tryTo([&] { saveCheckpoint(); });
+      else
+        writeSoFar();
       due_ = now() + o_.checkpointEvery;
-    } else if (asked) {
-      writeSoFar();
+      Signals::takeRequest();  // what was asked for meanwhile has been done: nothing has changed
+      continue;
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
     progress.begin(pass, samplesSince(pass.first));
@@ -159,21 +177,16 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
 
 bool RenderJob::finish() {
   signals_.setTimer(kNever);
-  std::optional<Error> unsaved;
-  if (saves() && control_.samplesDone > 0) try {
-      saveCheckpoint();
-    } catch (const Error& error) {
-      unsaved = error;
-    }
-  try {
-    if (mayWrite()) writeOutputs();
-  } catch (const Error& error) {
-    if (!saves() || unsaved) throw;
-    std::vector<Diagnostic> diagnostics = error.diagnostics();
+  std::optional<Error> unsaved, unwritten;
+  if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
+  if (mayWrite()) unwritten = failureOf([&] { writeOutputs(); });
+  if (unwritten && saves() && !unsaved) {
+    std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
     diagnostics.push_back(
         {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
-    throw Error(std::move(diagnostics), error.failure());
+    throw Error(std::move(diagnostics), unwritten->failure());
   }
+  if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
   return mayWrite();
 }
@@ -194,22 +207,21 @@ void RenderJob::adviseToResume() const {
 void RenderJob::writeOutputs() const {
   const FilmInfo info = this->info();
   std::optional<Image> image;
-  std::optional<Error> failure;  // the first; the others are written all the same
-  for (const std::string& output : outputs_) try {
-      if (isFilm(output)) {
-        writeFilm(output, scene_.film(), info);
-        continue;
-      }
-      if (!image) {
-        const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-        image = scene_.film().image(~notStored);
-        image->attributes = pictureAttributes(info);
-      }
-      writeImage(output, *image);
-    } catch (const Error& error) {
-      if (!failure) failure = error;
+  const auto write = [&](const std::string& output) {
+    if (isFilm(output)) return writeFilm(output, scene_.film(), info);
+    if (!image) {
+      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
+      image = scene_.film().image(~notStored);
+      image->attributes = pictureAttributes(info);
     }
-  if (failure) throw *failure;
+    writeImage(output, *image);
+  };
+  std::optional<Error> first;  // failure; the other outputs are written all the same
+  for (const std::string& output : outputs_) {
+    const std::optional<Error> failure = failureOf([&] { write(output); });
+    if (!first) first = failure;
+  }
+  if (first) throw *first;
 }
 
 void RenderJob::writeSoFar() const {
@@ -218,13 +230,11 @@ void RenderJob::writeSoFar() const {
 
 // Errors become warnings: it is tried again later.
 void RenderJob::tryTo(const std::function<void()>& write) const {
-  try {
-    write();
-  } catch (const Error& error) {
-    for (Diagnostic d : error.diagnostics()) {
-      d.severity = Severity::warning;
-      o_.build.report(d);
-    }
+  const std::optional<Error> failure = failureOf(write);
+  if (!failure) return;
+  for (Diagnostic d : failure->diagnostics()) {
+    d.severity = Severity::warning;
+    o_.build.report(d);
   }
 }
 
@@ -241,6 +251,7 @@ FilmInfo RenderJob::info() const {
   info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());
   info.attributes["seed"] = std::to_string(scene_.seed());
   info.attributes["scene"] = fmt::format("{}", fmt::join(o_.files, " "));
+  info.attributes["instructionSet"] = instructionSet();
   info.attributes["software"] = std::string("pbrt " PBRT_VERSION);
   return info;
 }

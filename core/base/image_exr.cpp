@@ -86,13 +86,19 @@ class OutStream : public Imf::OStream {
   void seekp(std::uint64_t position) override {
     check(fseeko(file_, static_cast<off_t>(position), SEEK_SET) == 0);
   }
+  // Throws if anything failed: OpenEXR keeps to itself what its destructor met.
+  void check() const {
+    if (error_ != 0) throw std::runtime_error(std::generic_category().message(error_));
+  }
 
  private:
-  static void check(bool done) {
-    if (!done) throw std::runtime_error(std::generic_category().message(errno));
+  void check(bool done) {
+    if (!done) error_ = errno;
+    check();
   }
 
   std::FILE* file_;
+  int error_ = 0;
 };
 
 // OpenEXR over the bytes of a file, which must outlive it.
@@ -162,9 +168,12 @@ void encodeExr(std::FILE* to, const Image& image) {
     pixels.insert(image.names[i], Imf::Slice::Make(Imf::FLOAT, image.channels[i].data(), window));
   }
   OutStream stream(to);
-  Imf::OutputFile file(stream, header, 0);
-  file.setFrameBuffer(pixels);
-  file.writePixels(image.window.height());
+  {
+    Imf::OutputFile file(stream, header, 0);
+    file.setFrameBuffer(pixels);
+    file.writePixels(image.window.height());
+  }
+  stream.check();
 }
 
 Image readExr(const std::filesystem::path& path) try {

@@ -1,9 +1,11 @@
 #include <png.h>
 
+#include <cerrno>
 #include <csetjmp>
 #include <cstdint>
 #include <new>
 #include <stdexcept>
+#include <system_error>
 
 #include "core/base/image_format.h"
 
@@ -123,7 +125,8 @@ void encodePng(std::FILE* to, const Image& image) {
   png.height = static_cast<png_uint_32>(image.window.height());
   png.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   if (png_image_write_to_stdio(&png, to, 0, bytes.data(), 0, nullptr) == 0)
-    throw std::runtime_error(png.message);
+    throw std::runtime_error(std::ferror(to) ? std::generic_category().message(errno)
+                                             : png.message);
 }
 
 }  // namespace pbrt

@@ -63,10 +63,14 @@ void syncFolder(const fs::path& folder) {
 }  // namespace
 
 fs::path throughLinks(const fs::path& file) {
+  constexpr int kMost = 40;  // as Linux
+  fs::path target = file;    // which need not be there
   std::error_code error;
-  if (!fs::is_symlink(file, error)) return file;
-  const fs::path target = fs::weakly_canonical(file, error);
-  return error ? file : target;
+  for (int links = 0; fs::is_symlink(target, error); ++links) {
+    if (links == kMost) return file;
+    target = target.parent_path() / fs::read_symlink(target, error);
+  }
+  return target;
 }
 
 Replacement::Replacement(const fs::path& target) : target_(throughLinks(target)) {

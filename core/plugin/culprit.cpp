@@ -57,8 +57,8 @@ void registerPlugin(const PluginInfo& info, const std::filesystem::path& file) {
   const std::scoped_lock lock(mutex);
   if (pluginAt(&info)) return;
   auto* code = new PluginCode{reinterpret_cast<std::uintptr_t>(&info), 0,
-                              fmt::format("{}/{}", kindFolder(info.kind), info.name), file.string(),
-                              newest.load()};
+                              fmt::format("{}/{}", kindFolder(info.kind), info.name),
+                              file.lexically_normal().string(), newest.load()};
   if (dl_iterate_phdr(&widen, code) == 0) code->end = code->begin;
   newest.store(code, std::memory_order_release);
 }

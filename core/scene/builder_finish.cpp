@@ -166,6 +166,8 @@ void SceneBuilder::readFilm() {
   Film::Settings settings = filmSettings(film);
   factory_.attempt([&] { settings.aovs |= filmAovs(statement); });
   factory_.attempt([&] { film.refuseUnread(); });
+  if (const SamplingIntegrator* sampling = scene_->integrator_->sampling())
+    settings.block = sampling->blockWidth();
   scene_->film_ = std::make_unique<Film>(resolution, crop, *scene_->filter_, settings);
 }
 

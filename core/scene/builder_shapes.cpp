@@ -84,7 +84,7 @@ void SceneBuilder::addShape(const Directive& d, const Attributes& attributes,
     lists.push_back(defaults.get());
   Library textures(resources_, attributes.scope);
   Params params = factory_.params(plugin, name, d.where, std::move(lists), &textures);
-  g->shape = create<Shape>(plugin, params, {});
+  g->shape = Factory::make<Shape>(plugin, params, {});
   factory_.attempt([&] { g->cutout = cutout(params, factory_.dialect()); });
   g->material = materialFor(params, attributes);
   g->media = media;

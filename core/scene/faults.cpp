@@ -28,13 +28,16 @@ void FaultLog::add(Fault fault) {
 
 void FaultLog::addThrown(const SamplePlace& at) {
   const PluginCode* culprit = thrower();
+  std::string text = whatWasThrown();
   try {
     throw;
+  } catch (const Error& error) {
+    text = error.diagnostics().at(0).message;
   } catch (const std::bad_alloc&) {
     outOfMemory_ = true;
   } catch (...) {  // its text will do
   }
-  add({at, whatWasThrown(), culprit});
+  add({at, std::move(text), culprit});
 }
 
 std::vector<Fault> FaultLog::first() const {

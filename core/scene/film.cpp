@@ -102,8 +102,10 @@ void Film::makeTable(const Filter& filter) {
     }
   // Multiples of 2^-24 of the greatest: the sum of the weights of half a billion samples is exact
   // in a double, and products with samples spread over fewer bits.
-  const int unit = std::ilogb(greatest) - 23;
-  for (float& w : table_) w = std::ldexp(std::rint(std::ldexp(w, -unit)), unit);
+  if (greatest > 0 && std::isfinite(greatest)) {
+    const int unit = std::ilogb(greatest) - 23;
+    for (float& w : table_) w = std::ldexp(std::rint(std::ldexp(w, -unit)), unit);
+  }
 
   // A pixel is sum(w L) / sum(w) over independent samples of variance s^2, n in each pixel:
   // s^2 sum(w^2) / sum(w)^2 = s^2 / n * integral(w^2) / integral(w)^2, over areas in pixels.

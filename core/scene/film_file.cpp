@@ -54,6 +54,10 @@ struct Closer {
 
 }  // namespace
 
+bool isFilm(const std::filesystem::path& file) {
+  return file.extension() == ".film";
+}
+
 struct FilmReader::State {
   std::filesystem::path file;
   std::unique_ptr<std::FILE, Closer> stream;
@@ -187,7 +191,7 @@ void FilmWriter::write(std::span<const FilmPixel> row) {
 void FilmWriter::commit() {
   state_->putNumber(state_->sum);
   try {
-    state_->replacement->commit();
+    state_->replacement->commit(Durability::onDisk);
   } catch (const std::exception& error) {
     state_->fail(error.what());
   }

@@ -149,9 +149,9 @@ FilmInfo readFilmHeader(std::string_view text) {
 
   info.firstSample = integer<std::uint32_t>(json.at("firstSample"));
   info.endSample = integer<std::uint32_t>(json.at("endSample"), info.firstSample);
+  info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   for (const Json& end : json.at("reached"))
     info.reached.push_back(integer<std::uint32_t>(end, info.endSample));
-  info.passEnd = integer<std::uint32_t>(json.at("passEnd"));
   require(info.reached.empty() || std::ranges::min(info.reached) == info.endSample);
 
   for (int i = 0; i < 3; ++i) info.origin[i] = number(json.at("origin").at(i));

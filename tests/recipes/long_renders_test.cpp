@@ -81,6 +81,7 @@ const Recipe kRecipes[] = {
     {"Splitting and merging", "", {}, {}, {"scene.exr"}},
     {"GNU parallel", "KILL TERM", {"TERM: 75", "KILL: 137"}, {"parallel"}, {"scene.exr"}},
     {"Slurm", "warn requeue", {"warn: 75", "requeue: 75"}, {"slurmd", "munged"}, {"scene.exr"}},
+    {"Animations", "", {}, {}, {"frame-0001.exr", "frame-0003.exr"}},
     {"An animation by Slurm",
      "warn requeue",
      {"warn: 75", "requeue: 75"},

@@ -110,17 +110,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     NotANumber, Faults,
-    testing::Values(Case{"shapes", fault("nan", "\"string in\" \"surface\""), kNotANumber},
-                    Case{"materials", fault("nan"), kNotANumber},
+    testing::Values(Case{"materials", fault("nan"), kNotANumber},
                     Case{"lights", fault("nan"), kNotANumber},
                     Case{"lights", fault("infinite"), kNotANumber},
                     Case{"cameras", fault("nan"), kNotANumber},
                     Case{"cameras", fault("infinite", "\"string in\" \"weight\""), kNotANumber},
                     Case{"integrators", fault("nan"), kNotANumber},
                     // A texture counts as a part of the material that asks it.
-                    Case{"textures", fault("nan"),
-                         " (" PBRT_BUILD_DIR "/lib/pbrt/materials/matte.so)" + kNotANumber,
-                         "materials/matte"}));
+                    Case{"textures", fault("nan"), kNotANumber,
+                         "materials/matte (" PBRT_BUILD_DIR "/lib/pbrt/materials/matte.so)"}));
 
 TEST(FaultsOfSamples, HaveTheirPixelAndNumber) {
   const Folder folder;
@@ -141,6 +139,18 @@ TEST(FaultsOfMedia, AreFound) {
   const Outcome o = folder.pbrt("--plugin-path " + kPlugins + " --outfile out.exr scene.pbrt");
   EXPECT_EQ(o.code, 0);
   EXPECT_THAT(o.err, HasSubstr("pixel (5, 0), sample 0: " + label("volumes") + kNotANumber));
+}
+
+// What a shape gives shows in what is stored beside the picture.
+TEST(FaultsOfSurfaces, AreFoundWhereTheyAreStored) {
+  const Folder folder;
+  folder.write("scene.pbrt", scene({{"shapes", fault("nan", "\"string in\" \"surface\"")}}));
+  const Outcome o =
+      folder.pbrt("--plugin-path " + kPlugins + " --aov normal --outfile out.exr scene.pbrt");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_THAT(o.err, HasSubstr("pixel (5, 0), sample 0: " + label("shapes") + kNotANumber));
+  const Image image = readImage(folder.path() / "out.exr");
+  for (const float z : *image.channel("N.Z")) EXPECT_TRUE(std::isfinite(z));
 }
 
 TEST(FaultsOfMaking, NameThePluginAndTheStatement) {
@@ -214,14 +224,15 @@ TEST_P(Crashes, NameThePixelAndThePlugin) {
     EXPECT_EQ(o.code, 128 + signal) << kind;
     EXPECT_THAT(o.err, HasSubstr("error: " + kind + "/faulty crashed at ")) << kind;
     EXPECT_THAT(o.err, HasSubstr(", sample 0 (" + kPlugins)) << kind;
-    if (kind != "shapes")  // which see blocks of rays at once
-      EXPECT_THAT(o.err, HasSubstr(" at pixel (5, 0), sample 0 ("));
+    // Shapes see blocks of rays at once.
+    const std::string place = kind == "shapes" ? " of the block from (4, 0)" : " at pixel (5, 0)";
+    EXPECT_THAT(o.err, HasSubstr(place + ", sample 0 ("));
   }
   const Outcome made =
       render(folder, {{"lights", "\"bool making\" \"true\" \"string fault\" \"" + how + "\""}});
   EXPECT_EQ(made.code, 128 + signal);
   EXPECT_THAT(made.err,
-              HasSubstr("lights/faulty crashed while it made what scene.pbrt:9 asks for"));
+              HasSubstr("lights/faulty crashed while it made what scene.pbrt:10 asks for"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Signals, Crashes,

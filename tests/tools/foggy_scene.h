@@ -18,7 +18,7 @@ PixelFilter ")" +
          filter + R"(" "float xwidth" 1.5 "float ywidth" 1.5
 Integrator "volpath" "integer maxdepth" 4
 Sampler ")" +
-         sampler + R"(" "integer pixelsamples" 16
+         sampler + R"("
 WorldBegin
 MediumInterface "fog" "fog"
 LightSource "point" "point from" [3 5 -3] "rgb I" [40 40 40]

@@ -224,6 +224,32 @@ TEST(Passes, LooksAtEverySampleIfSamplesTakeLonger) {
   EXPECT_EQ(s.looks.size(), 50U);
 }
 
+// Some pixels have samples up to 20 of a pass from 12 to 24, others 14 only: first all get those
+// up to 24, whatever the time and the error are, then passes go on as before.
+TEST(Passes, GoOnWithOneThatWasInterrupted) {
+  Goal goal;
+  goal.firstSample = 4;
+  goal.endSample = 1000;
+  goal.error = 0.1;
+  goal.seconds = 5;
+  Passes passes(goal, 14, 24);
+  const Passes::Pass rest = passes.next(100, 100, std::nullopt);
+  EXPECT_EQ(rest.first, 14U);
+  EXPECT_EQ(rest.end, 24U);
+  EXPECT_EQ(passes.taken(), 20U);
+  EXPECT_TRUE(passes.next(100, 100, 0.2).empty()) << "the time is over";
+
+  goal.seconds.reset();
+  Passes untimed(goal, 14, 24), undisturbed(goal, 24, 24);
+  untimed.next(0, 0, std::nullopt);
+  EXPECT_EQ(untimed.next(0, 0, 0.2).end, undisturbed.next(0, 0, 0.2).end);
+
+  Goal plain;
+  plain.endSample = 64;
+  Passes whole(plain, 64, 64);
+  EXPECT_TRUE(whole.next(0, 0, std::nullopt).empty());
+}
+
 // By hand: variances of 0.01 in values of 0.5: 0.01 / (0.25 + 0.01) each, the root of it is 0.1961;
 // one value of ten times the variance in six adds 9 / 6 of that.
 TEST(EstimatedError, ByHand) {

@@ -48,7 +48,7 @@ TEST_P(Memory, ThatIsShortIsAnErrorOrEnough) {
   const Folder folder;
   folder.write("scene.pbrt", GetParam().second);
   bool failed = false;
-  for (int megabytes = 120; megabytes <= 280; megabytes += 16) {
+  for (int megabytes = 120; megabytes <= 280; megabytes += 20) {
     const std::string limit = "ulimit -v " + std::to_string(megabytes * 1000) + "; ";
     const Outcome outcome = shell(folder, limit, "scene.pbrt --quiet --nthreads 2");
     if (outcome.code == 0) continue;
@@ -63,9 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
     Of, Memory,
     testing::Values(
         std::pair("Little", scene()),
-        std::pair("Spheres", scene(times(30000, "Translate .01 0 0 Shape \"sphere\""))),
+        std::pair("Spheres", scene(times(20000, "Translate .01 0 0 Shape \"sphere\""))),
         std::pair("Instances", scene("ObjectBegin \"a\"\nShape \"sphere\"\nObjectEnd\n" +
-                                     times(30000, "Translate .01 0 0 ObjectInstance \"a\""))),
+                                     times(20000, "Translate .01 0 0 ObjectInstance \"a\""))),
         std::pair("Subdivision",
                   scene("Shape \"loopsubdiv\" \"integer levels\" 8 \"integer indices\" "
                         "[0 1 2 0 2 3 0 3 1 1 3 2] \"point P\" [0 0 0 1 0 0 0 1 0 0 0 1]")),

@@ -62,7 +62,7 @@ TEST_F(SignalsTest, WithoutACheckpointThePictureIsLeft) {
 
 TEST_F(SignalsTest, ThePictureOfNoSampleIsNotWritten) {
   folder.write("out.exr", "old");
-  Running render(folder, kLong + std::string("--width 4000 --nthreads 1"));
+  Running render(folder, kLong + std::string("--width 1000 --nthreads 1"));
   render.untilItHandles(SIGTERM).send(SIGTERM);
   const Outcome outcome = render.end();
   EXPECT_EQ(outcome.code, 75);
@@ -106,6 +106,7 @@ TEST_F(SignalsTest, ManyRequestsDoNoHarm) {
   Running render(folder, "--quiet --spp 8 --outfile out.exr --checkpoint c.film scene.pbrt");
   render.untilItHandles(SIGUSR1).until([&] {
     render.send(SIGUSR1);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
     return false;
   });
   const Outcome outcome = render.end();

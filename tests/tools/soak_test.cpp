@@ -18,7 +18,7 @@ using Seconds = std::chrono::duration<double>;
 TEST(Soak, AHundredTimesKilledItIsTheSamePicture) {
   constexpr int kKills = 100;
   const std::string line =
-      "--quiet --spp 300 --aov variance,albedo,normal,depth,position,samples,uv,shape scene.pbrt ";
+      "--quiet --spp 200 --aov variance,albedo,normal,depth,position,samples,uv,shape scene.pbrt ";
   const unsigned seed = std::random_device()();
   SCOPED_TRACE(fmt::format("seed {}", seed));
   fmt::print("seed {}\n", seed);

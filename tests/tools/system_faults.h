@@ -7,14 +7,18 @@
 
 namespace pbrt::test {
 
-// Noisy, so that pictures of it are long.
-inline std::string scene(const std::string& statements = "Shape \"sphere\"", int width = 64) {
+// Fills the picture.
+inline const std::string kBall = "Shape \"sphere\" \"float radius\" 2.5";
+
+// Statements under the light of a sphere; a noisy picture, which is long, of the ball.
+inline std::string scene(const std::string& statements = kBall, int width = 64) {
   return "LookAt 0 0 3  0 0 0  0 1 0\nCamera \"perspective\"\n"
          "Film \"image\" \"integer xresolution\" " +
          std::to_string(width) + " \"integer yresolution\" " + std::to_string(width) +
          " \"string filename\" \"out.exr\"\n"
          "Sampler \"random\" \"integer pixelsamples\" 1\nIntegrator \"path\"\nWorldBegin\n"
-         "LightSource \"infinite\"\n" +
+         "AttributeBegin\nTranslate 0 3 5\nAreaLightSource \"diffuse\" \"rgb L\" [9 9 9]\n"
+         "Shape \"sphere\"\nAttributeEnd\n" +
          statements + "\nWorldEnd\n";
 }
 

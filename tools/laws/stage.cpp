@@ -86,7 +86,10 @@ std::unique_ptr<Integrator> Stage::makeIntegrator() const {
 }
 
 Film Stage::film(const Bounds2i& crop) const {
-  return {kResolution, crop, OnePixel(), {}};
+  Film::Settings settings;
+  if (const SamplingIntegrator* sampling = integrator_->sampling())
+    settings.block = sampling->blockWidth();
+  return {kResolution, crop, OnePixel(), settings};
 }
 
 std::uint64_t Stage::render(const Integrator& integrator, const Options& options,

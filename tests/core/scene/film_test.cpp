@@ -96,6 +96,50 @@ TEST_P(EveryFilter, TheOrderOfTilesDoesNotMatter) {
   EXPECT_EQ(forward.image().channels, backward.image().channels);
 }
 
+// Samples from 1e-30 to 1e30 beside one another, dealt out to some films at random, in another
+// order, which are put together in any order: the same bits, of all that is stored.
+TEST_P(EveryFilter, FilmsArePutTogetherInAnyOrder) {
+  const auto filter = test::make<Filter>(GetParam());
+  const Bounds2i crop{{5, 4}, {66, 41}};
+  const auto empty = [&] { return Film({70, 45}, crop, *filter, {.aovs = kEveryAov}); };
+  Film whole = empty();
+  std::vector<Film> parts(7, empty());
+  Rng rng(3);
+  const auto any = [&] {
+    return std::pow(10.F, 60 * rng.uniform() - 30) * (rng.uniform() < 0.1F ? 0 : 1);
+  };
+  auto samples = randomSamples(whole, 30000);
+  for (TakenSample& s : samples) s.L = {any(), any(), any()};
+  const auto addTo = [&](Film& film, std::size_t i) {
+    const TakenSample& s = samples[i];
+    const Point2i pixel(glm::floor(s.at));
+    const int tile = tileOf(film, pixel);
+    film.add(tile, s.at, s.L, s.alpha);
+    FirstSurface surface;
+    surface.albedo = surface.p = surface.n = s.L;
+    surface.depth = s.L.x;
+    surface.uv = {s.L.y, s.L.z};
+    surface.shape = static_cast<std::uint32_t>(1 + i % 1000);
+    film.add(tile, pixel, static_cast<std::uint32_t>(i), surface);
+  };
+  for (std::size_t i = 0; i < samples.size(); ++i) addTo(whole, i);
+  for (std::size_t i = samples.size(); i-- > 0;)
+    addTo(parts[static_cast<std::size_t>(7 * rng.uniform())], i);
+  const Image expected = whole.image();
+  for (int order = 0; order < 3; ++order) {
+    std::vector<std::size_t> left = {0, 1, 2, 3, 4, 5, 6};
+    Film merged = empty();
+    while (!left.empty()) {
+      const auto next = static_cast<std::ptrdiff_t>(rng.uniform() * float(left.size()));
+      const Film& part = parts[left[next]];
+      left.erase(left.begin() + next);
+      for (int y = crop.lo.y; y < crop.hi.y; ++y)
+        for (int x = crop.lo.x; x < crop.hi.x; ++x) merged.add({x, y}, part.pixel({x, y}));
+    }
+    EXPECT_EQ(merged.image().channels, expected.channels);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Names, EveryFilter,
                          testing::Values("box", "triangle", "gaussian", "mitchell", "sinc"));
 
@@ -121,6 +165,43 @@ TEST(Film, BrightSamplesAreDarkenedBeforeScaling) {
   Film film({1, 1}, {{0, 0}, {1, 1}}, *box, {.scale = 2, .brightest = 10});
   film.add(0, {0.5F, 0.5F}, Spectrum(1000), 1);
   EXPECT_NEAR(film.image().channels[0][0], 20, 1e-4F);
+}
+
+// Infinities would make all that follows no number.
+TEST(Film, WhatOverflowsCountsAsTheLargestNumber) {
+  const auto box = test::make<Filter>("box");
+  Film film({1, 1}, {{0, 0}, {1, 1}}, *box, {.scale = 1e30F, .aovs = kEveryAov});
+  FirstSurface far;
+  far.depth = kInfinity;
+  far.p = Point3(-kInfinity, std::nanf(""), 3);
+  for (int i = 0; i < 2; ++i) {
+    film.add(0, {0.5F, 0.5F}, Spectrum(1e30F, 1, 0), 1);
+    film.add(0, {0, 0}, 0, far);
+  }
+  const Image image = film.image();
+  constexpr float kMost = std::numeric_limits<float>::max();
+  EXPECT_EQ(image.channels[0][0], kMost);
+  EXPECT_EQ(image.channels[1][0], 1e30F);
+  EXPECT_EQ(image.channel("Z")->at(0), kMost);
+  EXPECT_EQ(image.channel("P.X")->at(0), -kMost);
+  EXPECT_EQ(image.channel("P.Y")->at(0), 0);
+  EXPECT_EQ(image.channel("P.Z")->at(0), 3);
+}
+
+// Far from the picture's corner a float has few bits for the place in the pixel: the same whichever
+// tile and crop the sample is in.
+TEST(Film, WeightsDoNotDependOnTheTile) {
+  const auto gaussian = test::make<Filter>("gaussian");
+  const Point2i size(40000, 40000);
+  const Bounds2i crop{{39990, 39990}, {39992, 39992}}, other{{39960, 39985}, {39999, 39998}};
+  Film small(size, crop, *gaussian, {}), large(size, other, *gaussian, {});
+  for (const TakenSample& s : randomSamples(small, 2000))
+    for (Film* film : {&small, &large})
+      film->add(tileOf(*film, Point2i(glm::floor(s.at))), s.at, s.L, s.alpha);
+  for (int c = 0; c < 4; ++c)
+    for (int i = 0; i < 4; ++i)
+      EXPECT_EQ(small.image().channels[c][i],
+                large.image().channels[c][(5 + i / 2) * 39 + 30 + i % 2]);
 }
 
 TEST(Film, AFilterMayNotBeWiderThanMemory) {

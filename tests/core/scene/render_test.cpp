@@ -2,6 +2,8 @@
 
 #include "core/scene/render.h"
 
+#include <thread>
+
 #include "core/base/rng.h"
 #include "tests/scenes.h"
 
@@ -104,22 +106,6 @@ TEST(Render, AnotherSeedGivesAnotherPicture) {
   EXPECT_NE(test::renderText(scene).channels, test::renderText(scene, 0, other).channels);
 }
 
-TEST(Render, ACropIsAPartOfTheWhole) {
-  const std::string scene = everything("halton", "directlighting");
-  const Image whole = test::renderText(scene);
-  BuildOptions options;
-  options.pixelBounds = {21, 53, 7, 31};
-  const Image crop = test::renderText(scene, 0, options);
-  ASSERT_EQ(crop.window, (Bounds2i{{21, 7}, {53, 31}}));
-  EXPECT_EQ(crop.resolution, Point2i(75, 50));
-  std::size_t i = 0;
-  for (int y = 7; y < 31; ++y)
-    for (int x = 21; x < 53; ++x, ++i)
-      for (int c = 0; c < 4; ++c)
-        EXPECT_NEAR(crop.channels[c][i], whole.channels[c][y * 75 + x], 1e-5F)
-            << x << ' ' << y << ' ' << c;
-}
-
 // As in pbrt-v1; else a picture for the screen, which divides by alpha, is too bright where
 // something covers a part of the sky.
 TEST(Render, ASkyThatShinesIsNoHole) {
@@ -175,6 +161,52 @@ TEST(Render, StopsWhenToldTo) {
   control.stop = true;
   scene->integrator().render(*scene, scene->sampler(), scene->film(), control);
   EXPECT_EQ(control.tilesDone, 0);
+}
+
+// Stopped wherever it may be, again and again, with other numbers of threads: the same bits.
+TEST(Render, GoesOnFromWhereItWasStopped) {
+  const std::string text = everything("halton", "directlighting");
+  BuildOptions options;
+  options.samplesPerPixel = 8;
+  options.aovs = kEveryAov;
+  const Image whole = test::renderText(text, 2, options);
+  const auto scene = test::buildText(text, options);
+  const std::uint64_t samples = std::uint64_t{8} * scene->film().sampledPixels().width() *
+                                scene->film().sampledPixels().height();
+  std::vector<std::uint32_t> reached;
+  std::uint64_t done = 0;
+  int stops = 0;
+  Rng rng(9);
+  while (done < samples) {
+    RenderControl control;
+    control.threads = 1 + static_cast<int>(3 * rng.uniform());
+    control.endSample = 8;
+    control.reached = reached;
+    // Another thread stops it once it has a random number of samples.
+    const std::uint64_t until = static_cast<std::uint64_t>(6000 * rng.uniform());
+    std::atomic<bool> ended = false;
+    std::thread stopper([&] {
+      while (!ended && control.samplesDone < until) std::this_thread::yield();
+      control.stop = true;
+    });
+    scene->integrator().render(*scene, scene->sampler(), scene->film(), control);
+    ended = true;
+    stopper.join();
+    reached = control.reached;
+    done += control.samplesDone;
+    ++stops;
+  }
+  EXPECT_EQ(done, samples);
+  EXPECT_GT(stops, 2);
+  EXPECT_EQ(reached, std::vector<std::uint32_t>(reached.size(), 8));
+  EXPECT_EQ(scene->film().image().channels, whole.channels);
+}
+
+TEST(Render, DoesNotGoOnWithAnotherFilm) {
+  const auto scene = test::buildText(everything("halton", "whitted"));
+  RenderControl control;
+  control.reached = {1};
+  EXPECT_THROW(scene->integrator().render(*scene, scene->sampler(), scene->film(), control), Error);
 }
 
 TEST(Render, CountsItsRays) {
