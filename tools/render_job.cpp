@@ -19,10 +19,6 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-bool isFilm(const fs::path& file) {
-  return file.extension() == ".film";
-}
-
 // As --pixelbounds has it.
 std::string inWords(const Bounds2i& window) {
   return fmt::format("{},{},{},{}", window.lo.x, window.hi.x, window.lo.y, window.hi.y);
@@ -112,6 +108,12 @@ void RenderJob::resume() {
   control_.faults.addEarlier(found.badSamples);
   if (o_.strict && found.badSamples > 0) refuse(describe(control_.faults));
   adviseToResume();
+  const auto set = found.attributes.find("instructionSet");
+  if (set != found.attributes.end() && set->second != ImageAttribute(instructionSet()))
+    o_.build.report({Severity::warning,
+                     fmt::format("{} is from a processor with another instruction set: at edges of "
+                                 "shapes the picture may differ from that of one processor",
+                                 o_.checkpoint)});
   start_ -= found.seconds;
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
 }
@@ -249,6 +251,7 @@ FilmInfo RenderJob::info() const {
   info.attributes["filterNoise"] = static_cast<float>(scene_.film().filterNoise());
   info.attributes["seed"] = std::to_string(scene_.seed());
   info.attributes["scene"] = fmt::format("{}", fmt::join(o_.files, " "));
+  info.attributes["instructionSet"] = instructionSet();
   info.attributes["software"] = std::string("pbrt " PBRT_VERSION);
   return info;
 }

@@ -53,8 +53,8 @@ class SamplingIntegrator : public Integrator {
               RenderControl& control) const final;
   const SamplingIntegrator* sampling() const final { return this; }
 
-  // Called before the first rays of each render, within its limit of threads; `resolution` is that
-  // of the whole picture. May throw Error.
+  // Called before the first rays of each render, not when it goes on, within its limit of threads;
+  // `resolution` is that of the whole picture. May throw Error.
   virtual void prepare(const World& /*world*/, Point2i /*resolution*/) const {}
   // The camera rays of so many by so many neighbouring pixels are looked at together; 32 at most.
   virtual int blockWidth() const { return kBlock; }

@@ -54,6 +54,10 @@ struct Closer {
 
 }  // namespace
 
+bool isFilm(const std::filesystem::path& file) {
+  return file.extension() == ".film";
+}
+
 struct FilmReader::State {
   std::filesystem::path file;
   std::unique_ptr<std::FILE, Closer> stream;

@@ -38,6 +38,9 @@ struct FilmInfo {
   bool interrupted() const { return !reached.empty(); }
 };
 
+// By its name.
+bool isFilm(const std::filesystem::path& file);
+
 // Reads one: its header at once, then row by row. Throws Error, Failure::io: not there, no film
 // file, of another version, damaged (every byte is under a check sum), cut off.
 class FilmReader {

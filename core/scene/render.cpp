@@ -261,7 +261,8 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
   tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(sampler, block); });
   arena.execute([&] {
     try {
-      prepare(world, film.resolution());
+      if (!control.prepared) prepare(world, film.resolution());
+      control.prepared = true;
     } catch (...) {
       std::rethrow_exception(asError());
     }

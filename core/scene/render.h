@@ -23,6 +23,9 @@ struct RenderControl {
   // stopped goes on from there, with this or another control. Empty: each has those before
   // firstSample.
   std::vector<std::uint32_t> reached;
+  // Whether the integrator has prepared itself for this scene: the first render with this control
+  // does, those that go on need not.
+  bool prepared = false;
 
   // Ends the render once each tile in progress has one sample more for all of its pixels.
   std::atomic<bool> stop{false};

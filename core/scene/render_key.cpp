@@ -42,4 +42,13 @@ std::string difference(const RenderKey& wanted, const RenderKey& found) {
   return fmt::format("{}", fmt::join(all, "; "));
 }
 
+std::string instructionSet() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return "avx512";
+  if (__builtin_cpu_supports("avx2")) return "avx2";
+  if (__builtin_cpu_supports("avx")) return "avx";
+#endif
+  return "sse";
+}
+
 }  // namespace pbrt

@@ -34,4 +34,8 @@ RenderKey renderKey(const Scene& scene, Dialect dialect, bool permissive,
 // All in which the second differs, for people ("it has another seed: 3, not 0"); empty: nothing.
 std::string difference(const RenderKey& wanted, const RenderKey& found);
 
+// The widest vectors of this processor: "sse", "avx", "avx2" or "avx512". Embree chooses its code
+// by them, and with it rounds the meetings of rays with edges one way or the other.
+std::string instructionSet();
+
 }  // namespace pbrt

@@ -20,7 +20,7 @@ std::string scene(const std::string& world, int side = 8) {
       "LookAt 0 -6 2  0 0 0  0 0 1\nCamera \"perspective\" \"float shutterclose\" 0\n"
       "Film \"image\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
       "Sampler \"random\" \"integer pixelsamples\" 2\nIntegrator \"whitted\"\nWorldBegin\n"
-      "LightSource \"point\" \"rgb I\" 40 \"point from\" [3 -5 6]\nMaterial "
+      "LightSource \"point\" \"rgb I\" [40 40 40] \"point from\" [3 -5 6]\nMaterial "
       "\"matte\"\n{}\nWorldEnd\n",
       side, side, world);
 }
@@ -248,9 +248,9 @@ long largest() {
   return 1024 * usage.ru_maxrss;
 }
 
-// A film of 512 x 512 takes tens of MiB. One scene is there at a time.
+// A film of 256 x 256 takes several MiB. One scene is there at a time.
 TEST_F(Frames, FortyTakeTheMemoryOfFour) {
-  folder.write("scene.pbrt", scene("Shape \"sphere\"", 512));
+  folder.write("scene.pbrt", scene("Shape \"sphere\"", 256));
   const std::string command = "--quiet --spp 1 --outfile '#.png' scene.pbrt --frames ";
   EXPECT_EQ(folder.pbrt(command + "1-4").code, 0);
   const long four = largest();

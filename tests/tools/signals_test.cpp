@@ -20,7 +20,6 @@ class SignalsTest : public testing::Test {
   void SetUp() override { folder.write("scene.pbrt", foggyScene()); }
   bool has(const std::string& file) const { return fs::exists(folder.path() / file); }
   Image picture() const { return readExr(folder.path() / "out.exr"); }
-  // The pixels, but not when it was made.
   static int number(const Image& image, const std::string& name) {
     const auto found = image.attributes.find(name);
     return found == image.attributes.end() ? -1 : std::get<int>(found->second);
@@ -76,7 +75,11 @@ TEST_F(SignalsTest, OnRequestItSavesAndGoesOn) {
   Running render(folder, kLong + std::string("--checkpoint c.film --checkpoint-every 1h"));
   std::uint64_t before = 0;
   for (int i = 0; i < 3; ++i) {
-    render.untilItHandles(SIGTERM).send(SIGUSR1).until([&] { return has("c.film"); });
+    render.untilItHandles(SIGTERM).until([&] {
+      render.send(SIGUSR1);  // again if it came while the last was saved, which answered it
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      return has("c.film");
+    });
     FilmReader reader(folder.path() / "c.film");
     const FilmInfo info = reader.info();
     std::uint64_t samples = info.endSample;

@@ -83,8 +83,10 @@ void checkTiling(const std::vector<Part>& parts, const std::vector<SampleBox>& b
   refuse(message);
 }
 
-bool isFilm(const fs::path& file) {
-  return file.extension() == ".film";
+// The instruction set that it was rendered by.
+ImageAttribute instructions(const FilmInfo& info) {
+  const auto found = info.attributes.find("instructionSet");
+  return found == info.attributes.end() ? ImageAttribute() : found->second;
 }
 
 }  // namespace
@@ -119,6 +121,7 @@ MergedFilm::MergedFilm(const std::vector<fs::path>& files) {
       info_.badSamples += parts[i].info().badSamples;
       info_.seconds += parts[i].info().seconds;
     }
+    differentProcessors_ |= instructions(parts[i].info()) != instructions(info_);
     parts_.push_back(std::move(parts[i].reader));
   }
 }

@@ -23,6 +23,9 @@ class MergedFilm {
   // Of all together: if there is one file, just as that says.
   const FilmInfo& info() const { return info_; }
 
+  // Whether they come from processors of different instruction sets (instructionSet()).
+  bool differentProcessors() const { return differentProcessors_; }
+
   // The next row of info().window, from the top. Throws Error, Failure::io.
   void read(std::span<FilmPixel> row);
   // After the last row. Throws Error, Failure::io, if a file is damaged: nothing of it counts then.
@@ -31,6 +34,7 @@ class MergedFilm {
  private:
   std::vector<std::unique_ptr<FilmReader>> parts_;
   FilmInfo info_;
+  bool differentProcessors_ = false;
   int y_ = 0;  // the next row
 };
 

@@ -48,6 +48,11 @@ int run(const Options& o) {
   writeMerged(film, o.outputs);
   if (o.quiet) return 0;
   if (!lacks.empty()) complain("warning: the film is not whole: " + lacks);
+  if (film.differentProcessors())
+    complain(
+        "warning: the films are from processors with different instruction sets: at edges of "
+        "shapes "
+        "the picture may differ from that of one of them");
   for (const auto& output : o.outputs) fmt::print("{}\n", output.string());
   if (o.check) {
     const std::uint32_t samples = film.info().endSample - film.info().firstSample;

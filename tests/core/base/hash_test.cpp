@@ -10,7 +10,7 @@
 namespace pbrt {
 namespace {
 
-// Known answers of xxHash, which many implementations quote.
+// Films of every build are to agree: known answers, which many implementations quote.
 TEST(HashBytes, IsXxh64) {
   EXPECT_EQ(hashBytes(""), 0xef46db3751d8e999ULL);
   EXPECT_EQ(hashBytes("a"), 0xd24ec4f1a98c6e5bULL);

@@ -54,27 +54,17 @@ TEST(FrameTime, NothingMovesBeforeAndAfter) {
   EXPECT_FALSE(world(ball, 6)->moves());
 }
 
-// A turn by 170 degrees goes at even speed; two halves of a turn, one within the other, are a whole
-// one.
+// An instance turns by 170 degrees at even speed: the ball in it goes by a circle, not by chords
+// from frame to frame.
 TEST(FrameTime, TurnsGoAtEvenSpeed) {
-  const auto place = [](const Scene& scene, double degrees, float since) {
-    const double a = degrees * std::numbers::pi / 180;
-    return height(scene, 10 * std::cos(a), 10 * std::sin(a), since);
-  };
   for (const double time : {2.0, 2.7, 4.0, 5.3, 5.9}) {
-    const auto part = world(
-        "ActiveTransform EndTime Rotate 170 0 0 1 ActiveTransform All Translate 10 0 0\n"
-        "Shape \"sphere\"",
-        time);
-    const auto turn = world(
-        "ObjectBegin \"o\" ActiveTransform EndTime Rotate 180 0 0 1 ActiveTransform All\n"
-        "Translate 10 0 0 Shape \"sphere\" ObjectEnd\n"
-        "ActiveTransform EndTime Rotate 180 0 0 1 ObjectInstance \"o\"",
+    const auto scene = world(
+        "ObjectBegin \"o\" Translate 10 0 0 Shape \"sphere\" ObjectEnd\n"
+        "ActiveTransform EndTime Rotate 170 0 0 1 ObjectInstance \"o\"",
         time);
     for (const float since : {0.F, 0.04F, 0.1F}) {
-      const double f = (time + since - 2) / 4;
-      EXPECT_NEAR(place(*part, 170 * f, since), 1, 1e-4) << time;
-      EXPECT_NEAR(place(*turn, 360 * f, since), 1, 1e-4) << time;
+      const double a = 170 * (time + since - 2) / 4 * std::numbers::pi / 180;
+      EXPECT_NEAR(height(*scene, 10 * std::cos(a), 10 * std::sin(a), since), 1, 1e-5) << time;
     }
   }
 }
@@ -87,7 +77,7 @@ Sampler "halton" "integer pixelsamples" 4
 Integrator "whitted"
 WorldBegin
 AttributeBegin )" +
-         light + R"( LightSource "point" "rgb I" 30 AttributeEnd
+         light + R"( LightSource "point" "rgb I" [30 30 30] AttributeEnd
 Material "matte"
 AttributeBegin )" +
          ball + R"( Shape "sphere" AttributeEnd
@@ -97,16 +87,16 @@ WorldEnd
 }
 
 double difference(const Image& a, const Image& b) {
+  const std::vector<float>&x = *a.channel("R"), &y = *b.channel("R");
   double sum = 0;
-  for (std::size_t i = 0; i < a.channels[0].size(); ++i)
-    sum += std::abs(a.channels[0][i] - b.channels[0][i]);
-  return sum / static_cast<double>(a.channels[0].size());
+  for (std::size_t i = 0; i < x.size(); ++i) sum += std::abs(x[i] - y[i]);
+  return sum / static_cast<double>(x.size());
 }
 
 // Camera, light and shape go by 4 units in 2 seconds: at 1.5 they are 3 units from their start.
 TEST(FrameTime, CameraLightsAndShapesStandWhereAStillSceneHasThem) {
   const std::string look = "LookAt 0 -8 4  0 0 0  0 0 1", lamp = "Translate 0 -3 5";
-  const std::string end = "ActiveTransform EndTime ", all = " ActiveTransform All ";
+  const std::string end = " ActiveTransform EndTime ", all = " ActiveTransform All ";
   const auto still = [](const std::string& c, const std::string& l, const std::string& b) {
     return renderText(picture(c, l, b));
   };
@@ -117,7 +107,7 @@ TEST(FrameTime, CameraLightsAndShapesStandWhereAStillSceneHasThem) {
   // The camera goes by +x where the world goes by -x in its eyes.
   const std::string travel = look + end + "Translate -4 0 0" + all;
   const Image base = still(look, lamp, "");
-  EXPECT_GT(mean(base, "Y") + mean(base, "R"), 0.1);
+  EXPECT_GT(mean(base, "R"), 0.02);
   const double none = 1e-6;
   struct Case {
     Image got, wanted;
