@@ -50,7 +50,9 @@ void save(benchmark::State& state) {
   Rng rng(1);
   addSamples(film, rng);
   const auto file = std::filesystem::temp_directory_path() / "film_bench.film";
-  for (auto _ : state) writeFilm(file, film, {.endSample = 1});
+  FilmInfo info;
+  info.endSample = 1;
+  for (auto _ : state) writeFilm(file, film, info);
   state.counters["MiB"] = static_cast<double>(std::filesystem::file_size(file)) / 0x1p20;
   std::filesystem::remove(file);
 }
