@@ -121,7 +121,7 @@ void RenderJob::resume() {
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
   Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
-                    o_.frame);
+                    samplesSince(goal_.firstSample), o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
@@ -131,6 +131,7 @@ bool RenderJob::run() {
       progress.error(*error);
     }
     const Passes::Pass pass = passes.next(seconds(), now() - looked, error);
+    progress.next(pass);
     if (pass.empty()) break;
     if (!renderPass(pass, progress)) {
       progress.end(Stage::interrupted);
@@ -163,7 +164,7 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
       continue;
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
-    progress.begin(pass, samplesSince(pass.first));
+    progress.begin();
     try {
       scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
     } catch (const Error&) {  // which leaves a film that can be gone on with
