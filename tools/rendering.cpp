@@ -12,14 +12,6 @@
 
 namespace pbrt {
 
-namespace {
-
-void note(const Options& o, const std::string& message) {
-  o.build.report({Severity::note, message});
-}
-
-}  // namespace
-
 int render(const Options& o, PluginLoader& loader) {
   Times t;
   checkOutputs(o.outputs);
@@ -41,8 +33,9 @@ int render(const Options& o, PluginLoader& loader) {
   parse(parser, o.files);
   std::unique_ptr<Scene> scene;
   build([&] { scene = reader.finish(); });
-  note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
-                      reader.dialect().reason));
+  o.build.report({Severity::note,
+                  fmt::format("the scene is read as pbrt-{}: {}",
+                              dialectName(reader.dialect().dialect), reader.dialect().reason)});
   std::vector<std::string> outputs = o.outputs;
   if (outputs.empty()) {
     outputs = {scene->outputFile()};

@@ -55,14 +55,18 @@ void checkSameRender(const Part& wanted, const Part& found) {
                        wanted.file.string(), why));
 }
 
+// Of a film that was.
+std::string interruption(const FilmInfo& info) {
+  return fmt::format("was interrupted: pixels have {} to {} samples",
+                     info.endSample - info.firstSample,
+                     std::ranges::max(info.reached) - info.firstSample);
+}
+
 void checkUninterrupted(const Part& part) {
-  const FilmInfo& info = part.info();
-  if (!info.interrupted()) return;
-  refuse(
-      fmt::format("{} was interrupted: pixels have {} to {} samples; go on with it first (pbrt "
-                  "--resume --checkpoint {})",
-                  part.file.string(), info.endSample - info.firstSample,
-                  std::ranges::max(info.reached) - info.firstSample, part.file.string()));
+  if (!part.info().interrupted()) return;
+  const std::string name = part.file.string();
+  refuse(fmt::format("{} {}; go on with it first (pbrt --resume --checkpoint {})", name,
+                     interruption(part.info()), name));
 }
 
 void checkTiling(const std::vector<Part>& parts, const std::vector<SampleBox>& boxes,
@@ -145,10 +149,7 @@ void MergedFilm::finish() {
 }
 
 std::string incompleteness(const FilmInfo& info) {
-  if (info.interrupted())
-    return fmt::format("it was interrupted: pixels have {} to {} samples",
-                       info.endSample - info.firstSample,
-                       std::ranges::max(info.reached) - info.firstSample);
+  if (info.interrupted()) return "it " + interruption(info);
   const Bounds2i picture{Point2i(0), info.resolution};
   const auto samples = static_cast<std::uint32_t>(info.key.samplesPerPixel);
   if (info.window == picture && info.firstSample == 0 && info.endSample >= samples) return "";
