@@ -211,8 +211,7 @@ void RenderJob::writeOutputs() const {
   const auto write = [&](const std::string& output) {
     if (isFilm(output)) return writeFilm(output, scene_.film(), info);
     if (!image) {
-      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-      image = scene_.film().image(~notStored);
+      image = scene_.film().image(~info.hidden);
       image->attributes = pictureAttributes(info);
     }
     writeImage(output, *image);
@@ -242,6 +241,7 @@ void RenderJob::tryTo(const std::function<void()>& write) const {
 FilmInfo RenderJob::info() const {
   FilmInfo info;
   info.key = key_;
+  info.hidden = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
