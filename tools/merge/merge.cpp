@@ -122,6 +122,7 @@ MergedFilm::MergedFilm(const std::vector<fs::path>& files) {
   y_ = info_.window.lo.y;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) {
+      info_.hidden &= parts[i].info().hidden;  // not by those who asked for it
       info_.badSamples += parts[i].info().badSamples;
       info_.seconds += parts[i].info().seconds;
     }
@@ -177,7 +178,8 @@ void writeMerged(MergedFilm& film, const std::vector<fs::path>& outputs) {
     std::vector<FilmPixel> row(static_cast<std::size_t>(info.window.width()));
     for (int y = info.window.lo.y; y < info.window.hi.y; ++y) next(row);
   } else {
-    image = pictureOf({info.resolution, info.window, info.aovs, info.origin},
+    const AovSet shown = info.aovs & ~info.hidden;
+    image = pictureOf({info.resolution, info.window, shown, info.origin},
                       [&](int, std::span<FilmPixel> row) { next(row); });
     image.attributes = pictureAttributes(info);
   }
