@@ -141,15 +141,16 @@ void Film::spread(int tile, Point2 film, Add add) const {
   }
 }
 
-void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
+void Film::add(int tile, Point2 film, const Spectrum& radiance, bool opaque) {
   Spectrum L = radiance;
   if (const float y = luminance(L); y > brightest_) L *= brightest_ / y;
   constexpr float kMost = std::numeric_limits<float>::max();
   L = glm::clamp(L * scale_, -kMost, kMost);
   spread(tile, film, [&](int x, int y, double w) {
     PictureSums& sums = picture_.row(tile, y)[x];
-    sums.rgba.add({w * L.x, w * L.y, w * L.z, w * alpha});
+    sums.rgb.add({w * L.x, w * L.y, w * L.z});
     sums.weight += w;
+    sums.alpha += opaque ? w : 0;
   });
   if (stores(kVariance))
     spread(tile, film, [&](int x, int y, double w) {

@@ -42,8 +42,8 @@ class Film {
   Bounds2i tilePixels(int tile) const;
 
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)). L is a number; what is
-  // infinite when scaled counts as the largest float.
-  void add(int tile, Point2 film, const Spectrum& L, float alpha);
+  // infinite when scaled counts as the largest float. Alpha is the share of opaque samples.
+  void add(int tile, Point2 film, const Spectrum& L, bool opaque);
   // Whether any of these is stored beside the picture.
   bool stores(AovSet aovs) const { return (aovs_ & aovs) != 0; }
   // Adds what sample `index` of a pixel saw first, if the film stores any of kOfSurface.

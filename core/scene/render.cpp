@@ -98,7 +98,7 @@ struct TileJob {
           add({place});
           sample = {};
         }
-        film.add(tile, worker.samples[n].film, sample.L, sample.alpha);
+        film.add(tile, worker.samples[n].film, sample.L, sample.opaque);
         if (!sample.surface) continue;
         if (allFinite(*sample.surface))
           film.add(tile, place.pixel, index, *sample.surface);
@@ -110,7 +110,7 @@ struct TileJob {
   // What a sample gives; by itself one that counts as black.
   struct Sample {
     Spectrum L{0};
-    float alpha = 1;
+    bool opaque = true;
     bool finite = true;
     std::optional<FirstSurface> surface;
   };
@@ -179,7 +179,7 @@ struct TileJob {
     const Point3 eye = camera.ray.o;
     if (world.bordersMedia() && (stores || isBlack(s.L))) passBorders(camera.ray, hit);
     // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
-    s.alpha = !hit.found() && isBlack(s.L) ? 0 : 1;
+    s.opaque = hit.found() || !isBlack(s.L);
     if (!hit.found() || !stores) return;
     s.surface = firstSurface(eye, camera.ray, hit, worker.scratch);
     worker.scratch.release();
