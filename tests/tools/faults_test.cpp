@@ -208,8 +208,24 @@ TEST(OutOfMemory, EndsTheRender) {
   const Outcome o = render(folder, {{"materials", fault("eats-memory")}}, "--checkpoint part.film");
   EXPECT_EQ(o.code, 3);
   EXPECT_THAT(o.err, HasSubstr("error: out of memory: 8 samples failed"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "part.film"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "part.film"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.exr"));
+}
+
+// With more memory the samples that failed are none.
+TEST(OutOfMemory, KeepsTheLastCheckpoint) {
+  const Folder folder;
+  const Parts parts{{"samplers",
+                     "\"integer pixel\" [3 4] \"integer sample\" 1 "
+                     "\"string fault\" \"eats-memory\""}};
+  const std::string film = "--checkpoint part.film ";
+  ASSERT_EQ(render(folder, parts, "--samples 0..1 " + film).code, 0);
+  const std::string before = contents(folder.path() / "part.film");
+  const Outcome o = render(folder, parts, "--samples 0..2 --resume " + film);
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, HasSubstr("error: out of memory: 1 sample failed"));
+  EXPECT_THAT(o.err, HasSubstr("part.film is as it was last saved: go on with --resume"));
+  EXPECT_EQ(contents(folder.path() / "part.film"), before);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -255,6 +271,17 @@ TEST(CrashesLater, LeaveTheCheckpointWhole) {
               HasSubstr("\n  part.film holds the samples so far: go on with --resume\n"));
   EXPECT_EQ(contents(folder.path() / "part.film"), before);
   EXPECT_EQ(render(folder, parts, "--samples 0..3 --resume " + film).code, 0);
+}
+
+TEST(CrashesOfAFrame, AdviseNothingOfTheFrameBefore) {
+  const Folder folder;
+  folder.write("part1.pbrt", "");
+  folder.write("part2.pbrt", "Material \"faulty\" " + fault("null"));
+  folder.write("scene.pbrt", scene({{"materials", "Include \"part#.pbrt\""}}));
+  const Outcome o = folder.pbrt("--plugin-path " + kPlugins +
+                                " --frames 1-2 --checkpoint '#.film' --outfile '#.exr' scene.pbrt");
+  EXPECT_EQ(o.code, 128 + SIGSEGV);
+  EXPECT_THAT(o.err, AllOf(HasSubstr("materials/faulty crashed"), Not(HasSubstr("1.film"))));
 }
 
 #endif

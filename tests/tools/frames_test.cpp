@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/base/image.h"
-#include "tests/command.h"
+#include "tests/tools/running.h"
 
 namespace pbrt::test {
 namespace {
@@ -74,6 +74,7 @@ TEST_F(Frames, FramesNeedNamesOfTheirOwn) {
        {"--frames 1-2", "--frames 7 --outfile a.png",
         "--frames 1-2 --outfile '#.png' --outfile b.exr",
         "--frames 1-2 --outfile '#.exr' --checkpoint a.film",
+        "--frames 1 --outfile '#.film' --checkpoint './##.film' --resume --skip-existing",
         "--frames 1-2 --outfile '#.exr' --write-every 1s", "--frames 1-2 --outfile '#.exr' -",
         "--skip-existing --outfile a.exr", "--fps 24 --outfile a.exr",
         "--frames 1 --outfile '#.exr' --fps 0"}) {
@@ -124,6 +125,31 @@ TEST_F(Frames, EveryStringHasTheNumber) {
   EXPECT_NE(channels("1.exr"), channels("2.exr"));
 }
 
+// One that an included file names is looked for beside that file, then beside the scene.
+TEST_F(Frames, TheFolderOfASceneHasTheNumberToo) {
+  ASSERT_EQ(folder.pbrt("--outfile a.png scene.pbrt").code, 0);
+  fs::create_directories(folder.path() / "shot01" / "parts");
+  fs::rename(folder.path() / "a.png", folder.path() / "shot01" / "a.png");
+  folder.write("shot01/scene.pbrt", scene("Include \"parts/part.pbrt\""));
+  folder.write("shot01/parts/part.pbrt",
+               "Texture \"a\" \"color\" \"imagemap\" \"string filename\" \"a.png\"\n");
+  const Outcome outcome = folder.pbrt("--frames 1 --outfile '#.exr' 'shot##/scene.pbrt'");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+// All bytes that are read for the two are the same.
+TEST_F(Frames, AnotherFrameIsAnotherRender) {
+  folder.write("scene.pbrt", scene("MakeNamedMaterial \"paint1\" \"string type\" \"matte\"\n"
+                                   "MakeNamedMaterial \"paint2\" \"string type\" \"mirror\"\n"
+                                   "NamedMaterial \"paint#\"\nShape \"sphere\""));
+  const std::string command = "--spp 2 --outfile '#.exr' scene.pbrt --checkpoint ";
+  ASSERT_EQ(folder.pbrt(command + "'#.film' --frames 1 --samples 0..1").code, 0);
+  fs::rename(folder.path() / "1.film", folder.path() / "2.film");
+  const Outcome outcome = folder.pbrt(command + "'#.film' --frames 2 --resume");
+  EXPECT_EQ(outcome.code, 3) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("frame 1"));
+}
+
 TEST_F(Frames, WithoutFramesANumberSignIsOne) {
   folder.write("##.pbrt", scene("Include \"a#.pbrt\""));
   folder.write("a#.pbrt", "Shape \"sphere\"");
@@ -166,6 +192,15 @@ TEST_F(Frames, WhatIsThereIsLeftAlone) {
   EXPECT_EQ(channels("1.exr"), channels("3.exr")) << "without the option all are made anew";
 }
 
+TEST_F(Frames, WhatIsThereIsCheckedNonetheless) {
+  folder.write("1.exr", "");
+  for (const char* how : {"--check", "--format"})
+    for (const char* output : {"", "--outfile '#.exr' "}) {
+      const std::string arguments = std::string(how) + " --frames 1 --skip-existing " + output;
+      EXPECT_EQ(folder.pbrt(arguments + "no.pbrt").code, 4) << arguments;
+    }
+}
+
 TEST_F(Frames, AFrameThatFailsStopsNoOther) {
   folder.write("scene.pbrt", scene("Include \"part#.pbrt\""));
   folder.write("part1.pbrt", "Shape \"sphere\"");
@@ -186,6 +221,18 @@ TEST_F(Frames, AMissingSceneStopsNoOther) {
   EXPECT_EQ(outcome.code, 4);
   EXPECT_EQ(outcome.out, "3.png\n");
   EXPECT_THAT(outcome.err, HasSubstr("2 of 3 frames failed: 1, 2\n"));
+}
+
+TEST_F(Frames, ACheckpointThatCannotBeUsedStopsNoOther) {
+  for (const char* how : {"", "--resume "}) {
+    folder.write("c2.film", "damaged");
+    const Outcome outcome = folder.pbrt("--frames 1-3 --outfile '#.png' --checkpoint 'c#.film' " +
+                                        std::string(how) + "scene.pbrt");
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
+    EXPECT_EQ(outcome.out, "1.png\n3.png\n") << how;
+    fs::remove(folder.path() / "c1.film");
+    fs::remove(folder.path() / "c3.film");
+  }
 }
 
 // Errors that are passed over are counted anew for each frame.
@@ -219,13 +266,35 @@ TEST_F(Frames, AnInterruptionEndsTheRun) {
   folder.write("samples2.pbrt", "Sampler \"random\" \"integer pixelsamples\" 1000000000");
   folder.write("run.sh", Folder::program() +
                              " --quiet --frames 1-3 --outfile '#.png' --checkpoint 'c#.film' "
-                             "--checkpoint-every 20ms scene.pbrt & p=$!\n"
+                             "--checkpoint-every 100ms scene.pbrt & p=$!\n"
                              "while ! test -e c2.film; do sleep 0.05; done\n"
                              "kill -USR1 $p; sleep 0.1; kill -TERM $p; wait $p\n");
   const Outcome outcome = folder.command("sh run.sh");
   EXPECT_EQ(outcome.code, 75) << outcome.err;
   EXPECT_TRUE(there("1.png") && there("c1.film") && there("c2.film"));
   EXPECT_FALSE(there("2.png") || there("3.png") || there("c3.film"));
+}
+
+// The frame whose pictures are being written becomes whole, but no other begins.
+TEST_F(Frames, AnInterruptionWhileAFrameIsWrittenEndsTheRun) {
+  folder.write("scene.pbrt", scene("Shape \"sphere\"", 256));
+  Outcome outcome;
+  for (int i = 0; i < 50; ++i) {
+    Running render(folder,
+                   "--quiet --spp 1 --aov normal,depth,uv --outfile #.png --outfile #.exr "
+                   "--frames 1-3 scene.pbrt");
+    render.until([&] { return there("1.png"); }).send(SIGSTOP);
+    render.untilItStands();
+    const bool inTime = there("1.png") && !there("1.exr");
+    outcome = render.send(inTime ? SIGTERM : SIGKILL).send(SIGCONT).end();
+    if (inTime) break;
+    for (const char* name : {"1.png", "1.exr", "2.png", "2.exr", "3.png", "3.exr"})
+      fs::remove(folder.path() / name);
+  }
+  EXPECT_EQ(outcome.code, 75);
+  EXPECT_EQ(outcome.err, "interrupted after frame 1\n");
+  EXPECT_TRUE(there("1.exr"));
+  EXPECT_FALSE(there("2.png"));
 }
 
 TEST_F(Frames, EachGoesOnFromItsOwnCheckpoint) {
