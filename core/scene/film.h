@@ -27,7 +27,8 @@ class Film {
     int block = 4;
   };
 
-  // `crop`: the pixels that are wanted, within [0, resolution). Throws Error.
+  // `crop`: the pixels that are wanted, within [0, resolution). Throws Error: not enough memory, a
+  // filter that reaches too far or gives what is no number, wrong blocks.
   Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings);
 
   Point2i resolution() const { return resolution_; }

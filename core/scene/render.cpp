@@ -71,9 +71,8 @@ struct TileJob {
           renderBlock(tile, intersect(pixels, {{x, y}, {x + blockWidth, y + blockWidth}}), s,
                       worker);
       control.rays.fetch_add(Accel::takeRayCount(), std::memory_order_relaxed);
-      control.samplesDone.fetch_add(samples, std::memory_order_relaxed);
+      control.samplesDone.fetch_add(samples, std::memory_order_release);
     }
-    ++control.tilesDone;
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
@@ -269,15 +268,20 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film.tiles(), 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
-            job.render(tile, workers.local());
+          try {
+            for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
+              job.render(tile, workers.local());
+          } catch (...) {  // no sample's fault; nobody else need work on
+            control.stop = true;
+            std::rethrow_exception(asError());
+          }
           currentSample = {};
         },
         tbb::simple_partitioner());
   });
   // oneTBB has ordered the tiles before what follows; this read says so to ThreadSanitizer, which
   // does not see into it.
-  static_cast<void>(control.tilesDone.load());
+  static_cast<void>(control.samplesDone.load(std::memory_order_acquire));
   control.faults.locate([&](const SamplePlace& at) { return job.culprit(at, sampler); });
   currentSample = {};
   if (control.faults.outOfMemory()) throw Error("out of memory: " + describe(control.faults));

@@ -209,6 +209,28 @@ TEST(Film, AFilterMayNotBeWiderThanMemory) {
   EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *wide, {}), Error);
 }
 
+TEST(Film, WhatGivesNoWeightsIsNoFilter) {
+  struct Level final : Filter {
+    explicit Level(float w) : Filter(Vec2(1)), weight(w) {}
+    float evaluate(Vec2 p) const override { return p.x > 0.5F ? weight : 0; }
+    float weight;
+  };
+  for (const float w : {std::nanf(""), kInfinity, -kInfinity, 0.F}) try {
+      Film({4, 4}, {{0, 0}, {4, 4}}, Level(w), {});
+      ADD_FAILURE() << w;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.failure(), Failure::plugin);
+    }
+  Film({4, 4}, {{0, 0}, {4, 4}}, Level(-1), {});
+}
+
+TEST(Film, BlocksFillTiles) {
+  const auto box = test::make<Filter>("box");
+  for (const int block : {-4, 0, 3, 12, 64})
+    EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *box, {.block = block}), Error) << block;
+  for (const int block : {1, 2, 32}) Film({4, 4}, {{0, 0}, {4, 4}}, *box, {.block = block});
+}
+
 TEST(Film, TooLargeAFilmIsAClearError) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer ends a program that asks for so much";
