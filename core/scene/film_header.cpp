@@ -102,12 +102,27 @@ ImageAttribute attribute(const Json& json) {
   return m;
 }
 
+Json ofAovs(AovSet aovs) {
+  Json names = Json::array();
+  for (const std::string_view name : aovNames())
+    if (aovs & *aovByName(name)) names.push_back(name);
+  return names;
+}
+
+AovSet aovSet(const Json& names) {
+  AovSet aovs = 0;
+  for (const Json& name : names) {
+    const auto aov = aovByName(name.get<std::string>());
+    require(aov.has_value());
+    aovs |= *aov;
+  }
+  return aovs;
+}
+
 }  // namespace
 
 std::string filmHeader(const FilmInfo& info) {
-  Json stored = Json::array(), attributes = Json::object();
-  for (const std::string_view name : aovNames())
-    if (info.aovs & *aovByName(name)) stored.push_back(name);
+  Json attributes = Json::object();
   for (const auto& [name, value] : info.attributes)
     attributes[ofBytes(name).get<std::string>()] = std::visit(ToJson(), value);
   const Json json = {
@@ -119,7 +134,8 @@ std::string filmHeader(const FilmInfo& info) {
         {"settings", ofBytes(info.key.settings)}}},
       {"resolution", ofPoint(info.resolution)},
       {"window", {ofPoint(info.window.lo), ofPoint(info.window.hi)}},
-      {"stored", stored},
+      {"stored", ofAovs(info.aovs)},
+      {"hidden", ofAovs(info.hidden)},
       {"firstSample", info.firstSample},
       {"reached", info.reached},
       {"endSample", info.endSample},
@@ -145,11 +161,8 @@ FilmInfo readFilmHeader(std::string_view text) try {
   info.window = {point(json.at("window").at(0)), point(json.at("window").at(1))};
   for (int i = 0; i < 2; ++i)
     require(info.window.lo[i] < info.window.hi[i] && info.window.hi[i] <= info.resolution[i]);
-  for (const Json& name : json.at("stored")) {
-    const auto aov = aovByName(name.get<std::string>());
-    require(aov.has_value());
-    info.aovs |= *aov;
-  }
+  info.aovs = aovSet(json.at("stored"));
+  info.hidden = aovSet(json.at("hidden"));
 
   info.firstSample = integer<std::uint32_t>(json.at("firstSample"));
   info.endSample = integer<std::uint32_t>(json.at("endSample"), info.firstSample);

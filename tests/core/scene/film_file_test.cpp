@@ -35,6 +35,7 @@ FilmInfo oddInfo() {
   info.key = {~0ULL, 1, (1ULL << 53) + 1, 3, "pbrt-v3, of \xC3\xA9 and \xFF"};
   info.firstSample = 2;
   info.endSample = 7;
+  info.hidden = kVariance | kShape;
   info.passEnd = 16;
   info.badSamples = ~0ULL;
   info.seconds = 0.1;
@@ -84,6 +85,7 @@ TEST_F(FilmFile, WhatItSaysOfItselfComesBack) {
   EXPECT_EQ(back.firstSample, 2U);
   EXPECT_EQ(back.reached, info.reached);
   EXPECT_EQ(back.endSample, 5U) << "the least that a tile has";
+  EXPECT_EQ(back.hidden, kVariance | kShape);
   EXPECT_EQ(back.passEnd, 16U);
   EXPECT_EQ(back.origin, scene->film().origin());
   EXPECT_EQ(back.badSamples, info.badSamples);
