@@ -225,6 +225,7 @@ void renewReports(Options& o) {
 
 Goal goalOf(const Options& o, int samplesPerPixel) {
   Goal goal = o.goal;
+  goal.evenly = !o.checkpoint.empty();
   const bool byOther = goal.seconds || goal.error;
   if (o.samples.empty())
     goal.endSample =

@@ -26,7 +26,7 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
   const std::uint32_t done = taken();
   const std::uint32_t left = goal_.endSample - end_;
   double part = static_cast<double>(done) / std::max(1U, done + left);
-  if (!goal_.seconds && !goal_.error && !goal_.interval && !goal_.showsError) {
+  if (!goal_.seconds && !goal_.error && !goal_.interval && !goal_.showsError && !goal_.evenly) {
     const Pass pass{end_, goal_.endSample, part, 1};
     end_ = pass.end;
     return pass;

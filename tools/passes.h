@@ -20,6 +20,7 @@ struct Goal {
   std::optional<double> error;     // estimatedError()
   std::optional<double> interval;  // seconds between looks at the picture; ends nothing
   bool showsError = false;         // the error is to be estimated now and then; ends nothing
+  bool evenly = false;  // few samples first, for who stops it and looks at it; ends nothing
 };
 
 // The relative error of a picture as its own channels Variance.* have it: the root of relMSE
