@@ -8,11 +8,12 @@
 namespace pbrt {
 
 Progress::Progress(ProgressStyle style, const RenderControl& control, int pixels,
-                   std::uint32_t firstSample, std::optional<int> frame)
+                   std::uint32_t firstSample, std::uint64_t samplesThere, std::optional<int> frame)
     : style_(style),
       control_(control),
       pixels_(pixels),
       firstSample_(firstSample),
+      samplesThere_(static_cast<double>(samplesThere)),
       pass_{firstSample, firstSample} {
   state_.frame = frame;
   if (style != ProgressStyle::none) thread_ = std::thread([this] { run(); });
@@ -28,11 +29,14 @@ Progress::~Progress() {
   if (hasStatusLine()) showStatus("");
 }
 
-void Progress::begin(const Passes::Pass& pass, std::uint64_t samplesThere) {
+void Progress::next(const Passes::Pass& pass) {
   const std::lock_guard lock(mutex_);
   pass_ = pass;
+}
+
+void Progress::begin() {
+  const std::lock_guard lock(mutex_);
   begun_ = true;
-  before_ = static_cast<double>(control_.samplesDone) - static_cast<double>(samplesThere);
   resting_ = false;
 }
 
@@ -70,14 +74,15 @@ ProgressState Progress::look() {
   const auto taken = static_cast<double>(control_.samplesDone);
   if (!resting_) rate_.add(seconds, taken);
   const double whole = pixels_ * (pass_.end - pass_.first);
-  const double there = std::min(taken - before_, whole);
+  const double samples = samplesThere_ + taken;
+  const double there = std::min(samples - pixels_ * (pass_.first - firstSample_), whole);
   const double ofPass = whole > 0 ? there / whole : 0;
   state_.part = pass_.from + (pass_.to - pass_.from) * ofPass;
   state_.seconds = seconds;
   // This pass is the part to - from of the whole.
   const double later = pass_.to > pass_.from ? whole * (1 - pass_.to) / (pass_.to - pass_.from) : 0;
   state_.remaining = rate_.remaining(whole - there + later);
-  state_.samplesPerPixel = pass_.first - firstSample_ + there / pixels_;
+  state_.samplesPerPixel = samples / pixels_;
   state_.raysPerSecond = static_cast<double>(control_.rays) / std::max(seconds, 1e-3);
   return state_;
 }

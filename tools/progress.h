@@ -18,18 +18,20 @@ namespace pbrt {
 // standard output, no more than one a second. A thread of its own does so, which sleeps.
 class Progress {
  public:
-  // `pixels`: how many samples one sample per pixel is; `firstSample`: that of the whole render.
-  // `control` must outlive it.
+  // `pixels`: how many samples one sample per pixel is; `firstSample`: that of the whole render, of
+  // whose samples so many are there: a render that was resumed does not get the credit for them.
+  // `control` must outlive it, and has taken no samples yet.
   Progress(ProgressStyle style, const RenderControl& control, int pixels, std::uint32_t firstSample,
-           std::optional<int> frame = {});
+           std::uint64_t samplesThere = 0, std::optional<int> frame = {});
   // Takes a bar away. Says nothing more.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  // Rendering begins, or goes on after a rest, with a pass over the picture, of which so many
-  // samples are there: a render that was resumed does not get the credit for them.
-  void begin(const Passes::Pass& pass, std::uint64_t samplesThere = 0);
+  // The pass over the picture that is next.
+  void next(const Passes::Pass& pass);
+  // Rendering begins, or goes on after a rest.
+  void begin();
   // Nothing is rendered until begin(), such as while pictures are written.
   void rest();
   // The estimated error has become known.
@@ -48,13 +50,13 @@ class Progress {
   const RenderControl& control_;
   const double pixels_;
   const std::uint32_t firstSample_;
+  const double samplesThere_;
   const Clock::time_point start_ = Clock::now();
 
   std::mutex mutex_;  // of all that follows
   std::condition_variable wake_;
   ProgressState state_;
   Passes::Pass pass_;
-  double before_ = 0;  // samples that this control had taken when the pass began, less those there
   bool begun_ = false, resting_ = true, ended_ = false;
   RateEstimate rate_;
   double nextReport_ = 0;   // seconds since the start

@@ -47,6 +47,13 @@ std::string duration(double seconds) {
   return fmt::format("{:.0f}d {:02.0f}h", std::floor(hours / 24), std::fmod(hours, 24));
 }
 
+// In one line of a log, and nothing that a terminal obeys.
+std::string withoutControls(std::string text) {
+  std::ranges::replace_if(
+      text, [](char c) { return (c >= 0 && c < ' ') || c == 0x7f; }, '?');
+  return text;
+}
+
 }  // namespace
 
 std::string statusText(const ProgressState& s, int width, bool bar) {
@@ -92,7 +99,7 @@ std::string jsonLine(const ProgressState& s) {
 std::string pictureLine(ProgressStyle style, const std::string& file) {
   switch (style) {
     case ProgressStyle::lines:
-      return fmt::format("openjd_status: wrote {}\n", file);
+      return fmt::format("openjd_status: wrote {}\n", withoutControls(file));
     case ProgressStyle::json:
       return line(Json{{"state", "wrote"}, {"file", file}});
     default:
@@ -104,7 +111,7 @@ std::string failureLine(ProgressStyle style, std::string message) {
   if (style == ProgressStyle::json) return line(Json{{"state", "failed"}, {"message", message}});
   if (style != ProgressStyle::lines) return "";
   std::ranges::replace(message, '\n', ' ');
-  return fmt::format("openjd_fail: {}\n", message);
+  return fmt::format("openjd_fail: {}\n", withoutControls(std::move(message)));
 }
 
 }  // namespace pbrt

@@ -107,7 +107,7 @@ void RenderJob::resume() try {
 bool RenderJob::run() {
   const Bounds2i& pixels = scene_.film().sampledPixels();
   Progress progress(o_.progress, control_, pixels.width() * pixels.height(), goal_.firstSample,
-                    o_.frame);
+                    samplesSince(goal_.firstSample), o_.frame);
   double looked = now();
   Passes passes(goal_, least(), std::max(most(), passEnd_));
   while (true) {
@@ -117,6 +117,7 @@ bool RenderJob::run() {
       progress.error(*error);
     }
     const Passes::Pass pass = passes.next(seconds(), now() - looked, error);
+    progress.next(pass);
     if (pass.empty()) break;
     passEnd_ = passes.errorAt();
     if (!renderPass(pass, progress)) {
@@ -150,7 +151,7 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
       continue;
     }
     signals_.setTimer(saves() ? due_ - now() : kNever);
-    progress.begin(pass, samplesSince(pass.first));
+    progress.begin();
     try {
       scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
     } catch (const Error& error) {
@@ -204,8 +205,7 @@ void RenderJob::writeOutputs() const {
   const auto write = [&](const std::string& output) {
     if (isFilm(output)) return writeFilm(output, scene_.film(), info);
     if (!image) {
-      const AovSet notStored = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
-      image = scene_.film().image(~notStored);
+      image = scene_.film().image(~info.hidden);
       image->attributes = pictureAttributes(info);
     }
     writeImage(output, *image);
@@ -235,6 +235,7 @@ void RenderJob::tryTo(const std::function<void()>& write) const {
 FilmInfo RenderJob::info() const {
   FilmInfo info;
   info.key = key_;
+  info.hidden = o_.build.aovs & ~o_.aovSet;  // wanted only for the goal
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;

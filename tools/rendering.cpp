@@ -18,10 +18,6 @@ namespace pbrt {
 
 namespace {
 
-void note(const Options& o, const std::string& message) {
-  o.build.report({Severity::note, message});
-}
-
 // These throw unless files of these names can be written: before long work.
 void checkOutputs(const std::vector<std::string>& outputs) {
   for (const std::string& output : outputs) {
@@ -70,8 +66,9 @@ int render(const Options& o, PluginLoader& loader) {
   parse(parser, o.files);
   std::unique_ptr<Scene> scene;
   build([&] { scene = reader.finish(); });
-  note(o, fmt::format("the scene is read as pbrt-{}: {}", dialectName(reader.dialect().dialect),
-                      reader.dialect().reason));
+  o.build.report({Severity::note,
+                  fmt::format("the scene is read as pbrt-{}: {}",
+                              dialectName(reader.dialect().dialect), reader.dialect().reason)});
   std::vector<std::string> outputs = o.outputs;
   if (outputs.empty()) {
     outputs = {scene->outputFile()};

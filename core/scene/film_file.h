@@ -21,6 +21,7 @@ struct FilmInfo {
   Point2i resolution{0};          // of the whole picture
   Bounds2i window;                // its pixels
   AovSet aovs = 0;                // what is stored for each
+  AovSet hidden = 0;              // of it, what pictures do not show
   std::uint32_t firstSample = 0;  // of each pixel
   // One past the last sample that each tile of the film has (Film::tiles()): they differ if the
   // render was interrupted. Empty: all have `endSample`, and there may be no such tiles, as in a

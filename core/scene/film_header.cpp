@@ -11,8 +11,12 @@ namespace {
 
 using Json = nlohmann::json;
 
+[[noreturn]] void refuse() {
+  throw std::runtime_error("its header makes no sense");
+}
+
 void require(bool sense) {
-  if (!sense) throw std::runtime_error("its header makes no sense");
+  if (!sense) refuse();
 }
 
 // JSON has neither infinities nor what is no number: they are strings.
@@ -98,12 +102,27 @@ ImageAttribute attribute(const Json& json) {
   return m;
 }
 
+Json ofAovs(AovSet aovs) {
+  Json names = Json::array();
+  for (const std::string_view name : aovNames())
+    if (aovs & *aovByName(name)) names.push_back(name);
+  return names;
+}
+
+AovSet aovSet(const Json& names) {
+  AovSet aovs = 0;
+  for (const Json& name : names) {
+    const auto aov = aovByName(name.get<std::string>());
+    require(aov.has_value());
+    aovs |= *aov;
+  }
+  return aovs;
+}
+
 }  // namespace
 
 std::string filmHeader(const FilmInfo& info) {
-  Json stored = Json::array(), attributes = Json::object();
-  for (const std::string_view name : aovNames())
-    if (info.aovs & *aovByName(name)) stored.push_back(name);
+  Json attributes = Json::object();
   for (const auto& [name, value] : info.attributes)
     attributes[ofBytes(name).get<std::string>()] = std::visit(ToJson(), value);
   const Json json = {
@@ -115,7 +134,8 @@ std::string filmHeader(const FilmInfo& info) {
         {"settings", ofBytes(info.key.settings)}}},
       {"resolution", ofPoint(info.resolution)},
       {"window", {ofPoint(info.window.lo), ofPoint(info.window.hi)}},
-      {"stored", stored},
+      {"stored", ofAovs(info.aovs)},
+      {"hidden", ofAovs(info.hidden)},
       {"firstSample", info.firstSample},
       {"reached", info.reached},
       {"endSample", info.endSample},
@@ -127,7 +147,7 @@ std::string filmHeader(const FilmInfo& info) {
   return json.dump();
 }
 
-FilmInfo readFilmHeader(std::string_view text) {
+FilmInfo readFilmHeader(std::string_view text) try {
   const Json json = Json::parse(text);
   FilmInfo info;
   const Json& key = json.at("key");
@@ -141,11 +161,8 @@ FilmInfo readFilmHeader(std::string_view text) {
   info.window = {point(json.at("window").at(0)), point(json.at("window").at(1))};
   for (int i = 0; i < 2; ++i)
     require(info.window.lo[i] < info.window.hi[i] && info.window.hi[i] <= info.resolution[i]);
-  for (const Json& name : json.at("stored")) {
-    const auto aov = aovByName(name.get<std::string>());
-    require(aov.has_value());
-    info.aovs |= *aov;
-  }
+  info.aovs = aovSet(json.at("stored"));
+  info.hidden = aovSet(json.at("hidden"));
 
   info.firstSample = integer<std::uint32_t>(json.at("firstSample"));
   info.endSample = integer<std::uint32_t>(json.at("endSample"), info.firstSample);
@@ -157,9 +174,12 @@ FilmInfo readFilmHeader(std::string_view text) {
   for (int i = 0; i < 3; ++i) info.origin[i] = number(json.at("origin").at(i));
   info.badSamples = integer<std::uint64_t>(json.at("badSamples"));
   info.seconds = number(json.at("seconds"));
+  require(std::isfinite(info.seconds) && info.seconds >= 0);
   for (const auto& [name, value] : json.at("attributes").items())
     info.attributes[bytes(name)] = attribute(value);
   return info;
+} catch (const Json::exception&) {  // no JSON, something missing, or of another type
+  refuse();
 }
 
 }  // namespace pbrt

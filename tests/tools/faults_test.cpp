@@ -33,7 +33,9 @@ std::string scene(Parts parts) {
   return "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"faulty\" " + parts["cameras"] +
          fmt::format("\nFilm \"image\" \"integer xresolution\" {0} \"integer yresolution\" {0}\n",
                      kSize) +
-         "PixelFilter \"box\"\nSampler \"faulty\" \"integer pixelsamples\" 2 " + parts["samplers"] +
+         "PixelFilter " +
+         (parts.contains("filters") ? "\"faulty\" " + parts["filters"] : "\"box\"") +
+         "\nSampler \"faulty\" \"integer pixelsamples\" 2 " + parts["samplers"] +
          (ownLight ? "\nSurfaceIntegrator \"faulty\" " + parts["integrators"]
                    : "\nSurfaceIntegrator \"directlighting\"") +
          "\nVolumeIntegrator \"emission\"\nWorldBegin\nVolume \"faulty\" " + parts["volumes"] +
@@ -151,6 +153,19 @@ TEST(FaultsOfSurfaces, AreFoundWhereTheyAreStored) {
   EXPECT_THAT(o.err, HasSubstr("pixel (5, 0), sample 0: " + label("shapes") + kNotANumber));
   const Image image = readImage(folder.path() / "out.exr");
   for (const float z : *image.channel("N.Z")) EXPECT_TRUE(std::isfinite(z));
+}
+
+// What every pixel needs is no matter of single samples.
+TEST(FaultsOfFilters, EndTheRender) {
+  const Folder folder;
+  for (const auto& [kind, says] : {std::pair("nan", " gives the weight nan at (0.3"),
+                                   {"infinite", " gives the weight inf at"},
+                                   {"throws", " threw: no such luck"}}) {
+    const Outcome o = render(folder, {{"filters", fault(kind)}});
+    EXPECT_EQ(o.code, 5) << kind;
+    EXPECT_THAT(o.err, HasSubstr("error: " + label("filters") + says));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.exr"));
 }
 
 TEST(FaultsOfMaking, NameThePluginAndTheStatement) {

@@ -75,6 +75,14 @@ TEST(JobLines, AreMessagesOfOpenJobDescription) {
   EXPECT_EQ(pictureLine(ProgressStyle::lines, "a.exr"), "openjd_status: wrote a.exr\n");
 }
 
+// Names of files may be any bytes: they neither begin messages nor steer a terminal.
+TEST(JobLines, HaveNoControlCharactersOfNames) {
+  EXPECT_EQ(pictureLine(ProgressStyle::lines, "a\nopenjd_fail: \x1b[2J\x7f\xc3\xa9.exr"),
+            "openjd_status: wrote a?openjd_fail: ?[2J?\xc3\xa9.exr\n");
+  EXPECT_EQ(failureLine(ProgressStyle::lines, "a\tb\x1b.exr:\nno\rroom"),
+            "openjd_fail: a?b?.exr: no?room\n");
+}
+
 TEST(JsonLine, HasTheDocumentedFields) {
   const std::string text = jsonLine(halfway());
   EXPECT_EQ(text.find('\n'), text.size() - 1);

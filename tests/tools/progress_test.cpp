@@ -1,5 +1,7 @@
 // What pbrt says while it renders: to a terminal, to a log, to programs.
 
+#include "tools/progress.h"
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <pty.h>
@@ -194,6 +196,39 @@ TEST_F(ProgressCommand, TellsTheErrorIfAsked) {
               plain = readExr(folder.path() / "plain.exr");
   EXPECT_EQ(told.names, plain.names);
   EXPECT_EQ(told.channels, plain.channels);
+}
+
+// Nothing is left to be rendered: what the checkpoint held is told all the same.
+TEST_F(ProgressCommand, CountsWhatACheckpointHeld) {
+  const std::string line = "scene.pbrt --progress=json --checkpoint c.film --resume";
+  ASSERT_EQ(folder.pbrt(line).code, 0);
+  const nlohmann::json done = nlohmann::json::parse(linesOf(folder.pbrt(line).out).at(0));
+  EXPECT_EQ(done.at("state"), "done");
+  EXPECT_EQ(done.at("samplesPerPixel"), 16);
+}
+
+// A render of the samples 4 to 20 of 100 pixels, gone on from a checkpoint with 600 of them:
+// interrupted before it began, and after 200 more.
+TEST(Progress, TellsTheWholeOfAResumedRender) {
+  for (const int taken : {0, 200}) {
+    RenderControl control;
+    testing::internal::CaptureStdout();
+    {
+      Progress progress(ProgressStyle::json, control, 100, 4, 600);
+      progress.next({4 + 4, 4 + 12, 0.25, 0.75});
+      if (taken > 0) {
+        progress.begin();
+        control.samplesDone = static_cast<std::uint64_t>(taken);
+        progress.rest();
+      }
+      progress.end(Stage::interrupted);
+    }
+    const nlohmann::json told =
+        nlohmann::json::parse(linesOf(testing::internal::GetCapturedStdout()).back());
+    EXPECT_EQ(told.at("state"), "interrupted");
+    EXPECT_DOUBLE_EQ(told.at("samplesPerPixel"), 6 + taken / 100);
+    EXPECT_DOUBLE_EQ(told.at("part"), (6 + taken / 100) / 16.0);
+  }
 }
 
 TEST_F(ProgressCommand, FailuresAreTold) {

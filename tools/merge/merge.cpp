@@ -55,14 +55,18 @@ void checkSameRender(const Part& wanted, const Part& found) {
                        wanted.file.string(), why));
 }
 
+// Of a film that was.
+std::string interruption(const FilmInfo& info) {
+  return fmt::format("was interrupted: pixels have {} to {} samples",
+                     info.endSample - info.firstSample,
+                     std::ranges::max(info.reached) - info.firstSample);
+}
+
 void checkUninterrupted(const Part& part) {
-  const FilmInfo& info = part.info();
-  if (!info.interrupted()) return;
-  refuse(
-      fmt::format("{} was interrupted: pixels have {} to {} samples; go on with it first (pbrt "
-                  "--resume --checkpoint {})",
-                  part.file.string(), info.endSample - info.firstSample,
-                  std::ranges::max(info.reached) - info.firstSample, part.file.string()));
+  if (!part.info().interrupted()) return;
+  const std::string name = part.file.string();
+  refuse(fmt::format("{} {}; go on with it first (pbrt --resume --checkpoint {})", name,
+                     interruption(part.info()), name));
 }
 
 void checkTiling(const std::vector<Part>& parts, const std::vector<SampleBox>& boxes,
@@ -118,6 +122,7 @@ MergedFilm::MergedFilm(const std::vector<fs::path>& files) {
   y_ = info_.window.lo.y;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     if (i > 0) {
+      info_.hidden &= parts[i].info().hidden;  // not by those who asked for it
       info_.badSamples += parts[i].info().badSamples;
       info_.seconds += parts[i].info().seconds;
     }
@@ -145,10 +150,7 @@ void MergedFilm::finish() {
 }
 
 std::string incompleteness(const FilmInfo& info) {
-  if (info.interrupted())
-    return fmt::format("it was interrupted: pixels have {} to {} samples",
-                       info.endSample - info.firstSample,
-                       std::ranges::max(info.reached) - info.firstSample);
+  if (info.interrupted()) return "it " + interruption(info);
   const Bounds2i picture{Point2i(0), info.resolution};
   const auto samples = static_cast<std::uint32_t>(info.key.samplesPerPixel);
   if (info.window == picture && info.firstSample == 0 && info.endSample >= samples) return "";
@@ -176,7 +178,8 @@ void writeMerged(MergedFilm& film, const std::vector<fs::path>& outputs) {
     std::vector<FilmPixel> row(static_cast<std::size_t>(info.window.width()));
     for (int y = info.window.lo.y; y < info.window.hi.y; ++y) next(row);
   } else {
-    image = pictureOf({info.resolution, info.window, info.aovs, info.origin},
+    const AovSet shown = info.aovs & ~info.hidden;
+    image = pictureOf({info.resolution, info.window, shown, info.origin},
                       [&](int, std::span<FilmPixel> row) { next(row); });
     image.attributes = pictureAttributes(info);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "merge.h"
 #include "tools/command.h"
@@ -12,7 +13,7 @@ namespace {
 
 struct Options {
   std::vector<std::filesystem::path> films, outputs;
-  bool check = false, quiet = false;
+  bool partial = false, check = false, quiet = false;
 };
 
 void defineOptions(CLI::App& app, Options& o) {
@@ -26,6 +27,8 @@ void defineOptions(CLI::App& app, Options& o) {
                      "or resumed; may be repeated")
           ->take_all()
           ->allow_extra_args(false);
+  app.add_flag("--partial", o.partial,
+               "Make pictures although samples or pixels of the whole render are not there");
   app.add_flag("--check", o.check, "Read all, tell what is wrong, write nothing")
       ->excludes(outfile);
   app.add_flag("--quiet", o.quiet, "Say nothing but errors");
@@ -35,19 +38,22 @@ void defineOptions(CLI::App& app, Options& o) {
       "             pbrt-merge a.film b.film --outfile whole.exr\n"
       "By windows:  pbrt scene.pbrt --cropwindow 0,0.5,0,1 --outfile left.film ...\n"
       "In stages:   pbrt-merge a.film b.film --outfile ab.film ...\n"
-      "One alone:   pbrt-merge checkpoint.film --outfile so-far.exr\n"
+      "So far:      pbrt-merge --partial checkpoint.film --outfile so-far.exr\n"
       "The picture is the same, bit for bit, as that of one process.\n"
-      "Exit codes: 0 done, 2 usage, 3 no parts of one render, overlap or gap, 4 file.");
+      "Exit codes: 0 done, 2 usage, 3 no parts of one render, overlap, gap or not whole, 4 file.");
 }
 
 int run(const Options& o) {
   if (o.outputs.empty() && !o.check)
     throw Error("--outfile says where the whole goes; --check writes nothing", Failure::usage);
   MergedFilm film(o.films);
-  const std::string lacks = incompleteness(film.info());
+  std::string lacks = incompleteness(film.info());
+  if (!lacks.empty()) lacks = "the film is not whole: " + lacks;
+  if (!lacks.empty() && !o.partial && !std::ranges::all_of(o.outputs, isFilm))
+    throw Error(lacks + "; --partial makes a picture of it all the same");
   writeMerged(film, o.outputs);
   if (o.quiet) return 0;
-  if (!lacks.empty()) complain("warning: the film is not whole: " + lacks);
+  if (!lacks.empty()) complain("warning: " + lacks);
   if (film.differentProcessors())
     complain(
         "warning: the films are from processors with different instruction sets: at edges of "

@@ -96,12 +96,56 @@ TEST_F(MergeCommand, SaysWhatIsWrong) {
   EXPECT_EQ(o.out, "1 film: 1 sample per pixel\n");
   EXPECT_EQ(merge("a.film --check --quiet").err, "");
   EXPECT_EQ(merge("scene.pbrt --outfile x.exr").code, 4);
-  EXPECT_EQ(merge("a.film --outfile nowhere/x.exr").code, 4);
+  EXPECT_EQ(merge("a.film --partial --outfile nowhere/x.exr").code, 4);
   EXPECT_EQ(merge("a.film --outfile nowhere/x.film").code, 4);
-  o = merge("a.film --outfile x.txt");
+  o = merge("a.film --partial --outfile x.txt");
   EXPECT_EQ(o.code, 4);
   EXPECT_FALSE(fs::exists(folder_.path() / "x.exr"));
   EXPECT_EQ(folder_.files(), 3U);
+}
+
+// A recipe that forgets a part gets no picture; films are for what is not whole yet.
+TEST_F(MergeCommand, MakesPicturesOfPartsOnlyIfTold) {
+  render("--samples 0..1 --spp 4 --outfile a.film");
+  render("--samples 1..3 --spp 4 --outfile b.film");
+  render("--samples 0..4 --spp 4 --pixelbounds 0,70,0,21 --outfile top.film");
+  const std::string lacks = "the film is not whole: it holds --samples 0..3 of --samples 0..4";
+  Outcome o = merge("--quiet a.film b.film --outfile ab.film --outfile ab.exr");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_EQ(o.err, "error: " + lacks + "; --partial makes a picture of it all the same\n");
+  EXPECT_EQ(merge("top.film --outfile ab.exr").code, 3);
+  EXPECT_EQ(folder_.files(), 4U) << "nothing is written";
+
+  o = merge("a.film b.film --outfile ab.film");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.err, "warning: " + lacks + "\n");
+  o = merge("ab.film --partial --outfile ab.exr");
+  EXPECT_EQ(o.code, 0);
+  EXPECT_EQ(o.err, "warning: " + lacks + "\n");
+  render("--samples 0..3 --spp 4 --outfile three.exr");
+  expectSamePicture("ab.exr", "three.exr");
+}
+
+// What is stored only to tell when the picture is good enough is not shown, but where asked for.
+TEST_F(MergeCommand, ShowsWhatPbrtShows) {
+  const std::string line = "--quiet scene.pbrt --spp 4 --aov normal";
+  const auto run = [&](const std::string& arguments) {
+    ASSERT_EQ(folder_.pbrt(line + arguments).code, 0);
+  };
+  run(" --progress-error --outfile direct.exr --outfile direct.film");
+  ASSERT_EQ(merge("direct.film --outfile merged.exr --outfile merged.film").code, 0);
+  EXPECT_EQ(readExr(folder_.path() / "direct.exr").channel("Variance.R"), nullptr);
+  expectSamePicture("merged.exr", "direct.exr");
+  ASSERT_EQ(merge("merged.film --outfile again.exr").code, 0);
+  expectSamePicture("again.exr", "direct.exr");
+
+  run(",variance --outfile shown.exr");
+  run(" --progress-error --samples 0..1 --outfile a.film");
+  run(",variance --samples 1..4 --outfile b.film");
+  for (const char* films : {"a.film b.film", "b.film a.film"}) {
+    ASSERT_EQ(merge(std::string(films) + " --outfile merged.exr").code, 0);
+    expectSamePicture("merged.exr", "shown.exr");
+  }
 }
 
 TEST_F(MergeCommand, OpensAsManyFilmsAsThereMayBe) {

@@ -177,10 +177,6 @@ TEST_F(Merge, HoldsForFiltersAndSamplers) {
     SCOPED_TRACE(sampler + " " + filter);
     Render render;
     render.scene = foggyScene(sampler, filter);
-    const std::string pixelSamples = "\"integer pixelsamples\" 16";
-    if (sampler == "stratified")
-      render.scene.replace(render.scene.find(pixelSamples), pixelSamples.size(),
-                           "\"integer xsamples\" 4 \"integer ysamples\" 4");
     Files files = parts(render, {0, 70}, {0, 50}, {0, 3, 4});
     files.push_back(part(render, {{0, 0}, {43, 50}}, 4, kSamples));
     files.push_back(part(render, {{43, 0}, {70, 50}}, 4, kSamples));
