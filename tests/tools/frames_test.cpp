@@ -6,8 +6,7 @@
 
 #include <sstream>
 
-#include "core/base/image.h"
-#include "tests/tools/running.h"
+#include "tests/tools/frames_scene.h"
 
 namespace pbrt::test {
 namespace {
@@ -15,20 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string scene(const std::string& world, int side = 8) {
-  return fmt::format(
-      "LookAt 0 -6 2  0 0 0  0 0 1\nCamera \"perspective\" \"float shutterclose\" 0\n"
-      "Film \"image\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
-      "Sampler \"random\" \"integer pixelsamples\" 2\nIntegrator \"whitted\"\nWorldBegin\n"
-      "LightSource \"point\" \"rgb I\" [40 40 40] \"point from\" [3 -5 6]\nMaterial "
-      "\"matte\"\n{}\nWorldEnd\n",
-      side, side, world);
-}
-
-class Frames : public testing::Test {
+class FramesTest : public Frames {
  protected:
-  void SetUp() override { folder.write("scene.pbrt", scene("Shape \"sphere\"")); }
-
   // The names of the pictures, in the order in which they were made.
   std::string rendered(const std::string& arguments) const {
     const Outcome outcome = folder.pbrt("--outfile '#.png' scene.pbrt --frames " + arguments);
@@ -40,13 +27,9 @@ class Frames : public testing::Test {
     EXPECT_EQ(folder.files(), 1U) << "no other picture";
     return names;
   }
-  auto channels(const std::string& name) const { return readExr(folder.path() / name).channels; }
-  bool there(const std::string& name) const { return fs::exists(folder.path() / name); }
-
-  Folder folder;
 };
 
-TEST_F(Frames, RangesStepsAndLists) {
+TEST_F(FramesTest, RangesStepsAndLists) {
   EXPECT_EQ(rendered("7"), "7 ");
   EXPECT_EQ(rendered("0-3"), "0 1 2 3 ");
   EXPECT_EQ(rendered("1-10:4"), "1 5 9 ");
@@ -56,7 +39,7 @@ TEST_F(Frames, RangesStepsAndLists) {
   EXPECT_EQ(rendered("2147483646-2147483647"), "2147483646 2147483647 ");
 }
 
-TEST_F(Frames, WrongRangesAreOneClearLine) {
+TEST_F(FramesTest, WrongRangesAreOneClearLine) {
   for (const char* range : {"5-1",   "1-",     "-3",  "1-999999999999", "",          "a",    "1..3",
                             "1-3:0", "1-3:-1", "7:2", "1,,2",           "1,",        ",1",   "1-3:",
                             "1 - 3", "0x7",    "1.5", "2147483648",     "0-1000000", "1-2-3"}) {
@@ -69,7 +52,7 @@ TEST_F(Frames, WrongRangesAreOneClearLine) {
   }
 }
 
-TEST_F(Frames, FramesNeedNamesOfTheirOwn) {
+TEST_F(FramesTest, FramesNeedNamesOfTheirOwn) {
   for (const char* arguments :
        {"--frames 1-2", "--frames 7 --outfile a.png",
         "--frames 1-2 --outfile '#.png' --outfile b.exr",
@@ -84,7 +67,7 @@ TEST_F(Frames, FramesNeedNamesOfTheirOwn) {
   }
 }
 
-TEST_F(Frames, OneAloneIsTheSameAsInARun) {
+TEST_F(FramesTest, OneAloneIsTheSameAsInARun) {
   folder.write("scene.pbrt", scene("Include \"at##.pbrt\" Shape \"sphere\""));
   for (int i = 8; i <= 11; ++i)
     folder.write(fmt::format("at{:02}.pbrt", i), fmt::format("Translate {} 0 0", i - 9));
@@ -101,7 +84,7 @@ TEST_F(Frames, OneAloneIsTheSameAsInARun) {
 }
 
 // A fluid's particles, a scene's own name, a texture's: all strings have the number.
-TEST_F(Frames, EveryStringHasTheNumber) {
+TEST_F(FramesTest, EveryStringHasTheNumber) {
   const std::string fluid =
       "Shape \"metaballs\" \"string filename\" \"{}\" \"float radius\" 1.5 "
       "\"string kernel\" \"wyvill\"";
@@ -126,31 +109,19 @@ TEST_F(Frames, EveryStringHasTheNumber) {
 }
 
 // One that an included file names is looked for beside that file, then beside the scene.
-TEST_F(Frames, TheFolderOfASceneHasTheNumberToo) {
+TEST_F(FramesTest, TheFolderOfASceneHasTheNumberToo) {
   ASSERT_EQ(folder.pbrt("--outfile a.png scene.pbrt").code, 0);
   fs::create_directories(folder.path() / "shot01" / "parts");
   fs::rename(folder.path() / "a.png", folder.path() / "shot01" / "a.png");
   folder.write("shot01/scene.pbrt", scene("Include \"parts/part.pbrt\""));
   folder.write("shot01/parts/part.pbrt",
-               "Texture \"a\" \"color\" \"imagemap\" \"string filename\" \"a.png\"\n");
+               "Texture \"a\" \"color\" \"imagemap\" \"string filename\" \"a.png\"\n"
+               "Material \"matte\" \"texture Kd\" \"a\" Shape \"sphere\"\n");
   const Outcome outcome = folder.pbrt("--frames 1 --outfile '#.exr' 'shot##/scene.pbrt'");
   EXPECT_EQ(outcome.code, 0) << outcome.err;
 }
 
-// All bytes that are read for the two are the same.
-TEST_F(Frames, AnotherFrameIsAnotherRender) {
-  folder.write("scene.pbrt", scene("MakeNamedMaterial \"paint1\" \"string type\" \"matte\"\n"
-                                   "MakeNamedMaterial \"paint2\" \"string type\" \"mirror\"\n"
-                                   "NamedMaterial \"paint#\"\nShape \"sphere\""));
-  const std::string command = "--spp 2 --outfile '#.exr' scene.pbrt --checkpoint ";
-  ASSERT_EQ(folder.pbrt(command + "'#.film' --frames 1 --samples 0..1").code, 0);
-  fs::rename(folder.path() / "1.film", folder.path() / "2.film");
-  const Outcome outcome = folder.pbrt(command + "'#.film' --frames 2 --resume");
-  EXPECT_EQ(outcome.code, 3) << outcome.err;
-  EXPECT_THAT(outcome.err, HasSubstr("frame 1"));
-}
-
-TEST_F(Frames, WithoutFramesANumberSignIsOne) {
+TEST_F(FramesTest, WithoutFramesANumberSignIsOne) {
   folder.write("##.pbrt", scene("Include \"a#.pbrt\""));
   folder.write("a#.pbrt", "Shape \"sphere\"");
   const Outcome outcome = folder.pbrt("--outfile '#.exr' '##.pbrt'");
@@ -159,7 +130,7 @@ TEST_F(Frames, WithoutFramesANumberSignIsOne) {
 }
 
 // The ball goes 3 units in a second; --fps 4 takes the frames 0, 2 and 4 at 0, 0.5 and 1 second.
-TEST_F(Frames, TimeGoesOn) {
+TEST_F(FramesTest, TimeGoesOn) {
   folder.write("scene.pbrt", "TransformTimes 0 1\n" + scene("ActiveTransform EndTime\n"
                                                             "Translate 3 0 0 Shape \"sphere\""));
   EXPECT_EQ(folder.pbrt("--frames 0-4:2 --fps 4 --outfile '#.exr' scene.pbrt").code, 0);
@@ -172,7 +143,7 @@ TEST_F(Frames, TimeGoesOn) {
   EXPECT_EQ(channels("fixed2.exr"), channels("0.exr")) << "without --fps time stands still";
 }
 
-TEST_F(Frames, WhatIsThereIsLeftAlone) {
+TEST_F(FramesTest, WhatIsThereIsLeftAlone) {
   folder.write("1.exr", "not touched");
   folder.write("2.exr", "its other picture is missing");
   folder.write("1.png", "nor this one");
@@ -192,7 +163,7 @@ TEST_F(Frames, WhatIsThereIsLeftAlone) {
   EXPECT_EQ(channels("1.exr"), channels("3.exr")) << "without the option all are made anew";
 }
 
-TEST_F(Frames, WhatIsThereIsCheckedNonetheless) {
+TEST_F(FramesTest, WhatIsThereIsCheckedNonetheless) {
   folder.write("1.exr", "");
   for (const char* how : {"--check", "--format"})
     for (const char* output : {"", "--outfile '#.exr' "}) {
@@ -201,7 +172,7 @@ TEST_F(Frames, WhatIsThereIsCheckedNonetheless) {
     }
 }
 
-TEST_F(Frames, AFrameThatFailsStopsNoOther) {
+TEST_F(FramesTest, AFrameThatFailsStopsNoOther) {
   folder.write("scene.pbrt", scene("Include \"part#.pbrt\""));
   folder.write("part1.pbrt", "Shape \"sphere\"");
   folder.write("part2.pbrt", "Shape \"sphere\" \"float radius\" \"wide\"");
@@ -215,7 +186,7 @@ TEST_F(Frames, AFrameThatFailsStopsNoOther) {
   EXPECT_THAT(outcome.err, HasSubstr("3 of 5 frames failed: 2, 3, 4\n"));
 }
 
-TEST_F(Frames, AMissingSceneStopsNoOther) {
+TEST_F(FramesTest, AMissingSceneStopsNoOther) {
   fs::copy(folder.path() / "scene.pbrt", folder.path() / "s3.pbrt");
   const Outcome outcome = folder.pbrt("--frames 1-3 --outfile '#.png' 's#.pbrt'");
   EXPECT_EQ(outcome.code, 4);
@@ -223,20 +194,8 @@ TEST_F(Frames, AMissingSceneStopsNoOther) {
   EXPECT_THAT(outcome.err, HasSubstr("2 of 3 frames failed: 1, 2\n"));
 }
 
-TEST_F(Frames, ACheckpointThatCannotBeUsedStopsNoOther) {
-  for (const char* how : {"", "--resume "}) {
-    folder.write("c2.film", "damaged");
-    const Outcome outcome = folder.pbrt("--frames 1-3 --outfile '#.png' --checkpoint 'c#.film' " +
-                                        std::string(how) + "scene.pbrt");
-    EXPECT_EQ(outcome.code, 3) << outcome.err;
-    EXPECT_EQ(outcome.out, "1.png\n3.png\n") << how;
-    fs::remove(folder.path() / "c1.film");
-    fs::remove(folder.path() / "c3.film");
-  }
-}
-
 // Errors that are passed over are counted anew for each frame.
-TEST_F(Frames, PermissiveFramesCountTheirOwnErrors) {
+TEST_F(FramesTest, PermissiveFramesCountTheirOwnErrors) {
   folder.write("scene.pbrt", scene("Include \"part#.pbrt\""));
   folder.write("part1.pbrt", "Shape \"nosuchshape\"");
   folder.write("part2.pbrt", "Shape \"sphere\"");
@@ -249,65 +208,11 @@ TEST_F(Frames, PermissiveFramesCountTheirOwnErrors) {
   EXPECT_THAT(check.err, HasSubstr("1 of 2 frames failed: 1\n"));
 }
 
-TEST_F(Frames, PicturesThatCannotBeWrittenEndTheRun) {
+TEST_F(FramesTest, PicturesThatCannotBeWrittenEndTheRun) {
   const Outcome outcome = folder.pbrt("--frames 1-9 --outfile 'nowhere/#.png' scene.pbrt");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_THAT(outcome.err, HasSubstr("nowhere/1.png"));
   EXPECT_EQ(outcome.err.find("nowhere/2.png"), std::string::npos);
-}
-
-// The second frame would take days. What it has is in its checkpoint, but its name is not taken.
-TEST_F(Frames, AnInterruptionEndsTheRun) {
-  std::string text = scene("Shape \"sphere\"");
-  text.replace(text.find("Sampler"), text.find("Integrator") - text.find("Sampler"),
-               "Include \"samples#.pbrt\"\n");
-  folder.write("scene.pbrt", text);
-  folder.write("samples1.pbrt", "Sampler \"random\" \"integer pixelsamples\" 2");
-  folder.write("samples2.pbrt", "Sampler \"random\" \"integer pixelsamples\" 1000000000");
-  folder.write("run.sh", Folder::program() +
-                             " --quiet --frames 1-3 --outfile '#.png' --checkpoint 'c#.film' "
-                             "--checkpoint-every 100ms scene.pbrt & p=$!\n"
-                             "while ! test -e c2.film; do sleep 0.05; done\n"
-                             "kill -USR1 $p; sleep 0.1; kill -TERM $p; wait $p\n");
-  const Outcome outcome = folder.command("sh run.sh");
-  EXPECT_EQ(outcome.code, 75) << outcome.err;
-  EXPECT_TRUE(there("1.png") && there("c1.film") && there("c2.film"));
-  EXPECT_FALSE(there("2.png") || there("3.png") || there("c3.film"));
-}
-
-// The frame whose pictures are being written becomes whole, but no other begins.
-TEST_F(Frames, AnInterruptionWhileAFrameIsWrittenEndsTheRun) {
-  folder.write("scene.pbrt", scene("Shape \"sphere\"", 256));
-  Outcome outcome;
-  for (int i = 0; i < 50; ++i) {
-    Running render(folder,
-                   "--quiet --spp 1 --aov normal,depth,uv --outfile #.png --outfile #.exr "
-                   "--frames 1-3 scene.pbrt");
-    render.until([&] { return there("1.png"); }).send(SIGSTOP);
-    render.untilItStands();
-    const bool inTime = there("1.png") && !there("1.exr");
-    outcome = render.send(inTime ? SIGTERM : SIGKILL).send(SIGCONT).end();
-    if (inTime) break;
-    for (const char* name : {"1.png", "1.exr", "2.png", "2.exr", "3.png", "3.exr"})
-      fs::remove(folder.path() / name);
-  }
-  EXPECT_EQ(outcome.code, 75);
-  EXPECT_EQ(outcome.err, "interrupted after frame 1\n");
-  EXPECT_TRUE(there("1.exr"));
-  EXPECT_FALSE(there("2.png"));
-}
-
-TEST_F(Frames, EachGoesOnFromItsOwnCheckpoint) {
-  const std::string command =
-      "--quiet --frames 1-2 --outfile '#.exr' --checkpoint 'c##.film' --resume scene.pbrt";
-  EXPECT_EQ(folder.pbrt(command).code, 0);
-  const std::string second = contents(folder.path() / "c02.film");
-  const auto wanted = channels("2.exr");
-  fs::remove(folder.path() / "2.exr");
-  const Outcome again = folder.pbrt("--skip-existing " + command);
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_EQ(channels("2.exr"), wanted);
-  EXPECT_EQ(contents(folder.path() / "c02.film"), second) << "it was complete";
 }
 
 // The largest of all programs that this test has run so far, in bytes.
@@ -318,7 +223,7 @@ long largest() {
 }
 
 // A film of 256 x 256 takes several MiB. One scene is there at a time.
-TEST_F(Frames, FortyTakeTheMemoryOfFour) {
+TEST_F(FramesTest, FortyTakeTheMemoryOfFour) {
   folder.write("scene.pbrt", scene("Shape \"sphere\"", 256));
   const std::string command = "--quiet --spp 1 --outfile '#.png' scene.pbrt --frames ";
   EXPECT_EQ(folder.pbrt(command + "1-4").code, 0);
