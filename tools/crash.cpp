@@ -120,6 +120,10 @@ void tellOfCrashes() {
 }
 
 void adviseAfterCrash(const std::string& text) {
+  if (text.empty()) {
+    advice = nullptr;
+    return;
+  }
   auto& spare = advice == advices[0].data() ? advices[1] : advices[0];
   spare[text.copy(spare.data(), spare.size() - 1)] = '\0';
   advice = spare.data();

@@ -12,7 +12,7 @@ namespace pbrt {
 void tellOfCrashes();
 
 // What a message about a crash ends with, instead of what was said before: how to go on. Cut at 500
-// bytes.
+// bytes; empty: nothing.
 void adviseAfterCrash(const std::string& advice);
 
 }  // namespace pbrt

@@ -10,6 +10,7 @@
 #include "core/base/numbered_name.h"
 #include "core/plugin/culprit.h"
 #include "rendering.h"
+#include "signals.h"
 #include "status_line.h"
 
 namespace pbrt {
@@ -59,6 +60,7 @@ Options optionsOf(const Options& all, int frame) {
   setNumber(o.files, frame);
   setNumber(o.outputs, frame);
   o.checkpoint = numbered(o.checkpoint, frame);
+  o.build.folder = numbered(o.build.folder.string(), frame);
   renewReports(o);
   return o;
 }
@@ -68,6 +70,15 @@ bool allThere(const std::vector<std::string>& files) {
     std::error_code none;
     return std::filesystem::exists(file, none);
   });
+}
+
+// Whether two names with # can be those of one file.
+bool mayBeSame(const std::string& a, const std::string& b) {
+  const auto name = [](const std::string& pattern) {  // however long its runs of # are
+    return std::filesystem::absolute(numbered(pattern, std::numeric_limits<int>::max()))
+        .lexically_normal();
+  };
+  return name(a) == name(b);
 }
 
 // Whether the files that failed are those of the frame's scene, not its pictures.
@@ -143,6 +154,12 @@ void checkFrames(const Options& o) {
     refuse(fmt::format("--checkpoint {}: each frame needs one of its own, such as ####.film",
                        shown(o.checkpoint)));
   // What has the name of a frame is whole, so that --skip-existing may trust it.
+  for (const std::string& output : o.outputs)
+    if (o.skipExisting && !o.checkpoint.empty() && mayBeSame(output, o.checkpoint))
+      refuse(
+          fmt::format("--skip-existing: {} may be there before its frame is whole, since it is "
+                      "the checkpoint, too",
+                      shown(output)));
   if (o.goal.interval)
     refuse("--write-every writes pictures that are not whole: not with --frames");
 }
@@ -153,12 +170,17 @@ int forFrames(const Options& o, const Command& command) {
   std::vector<int> failed;
   for (const int number : o.frames) {
     const Options frame = optionsOf(o, number);
-    if (o.skipExisting && allThere(frame.outputs)) {
+    if (o.skipExisting && !o.check && !o.format && allThere(frame.outputs)) {
       ++there;
       continue;
     }
     const auto [code, last] = carryOut(frame, command);
     if (code == kInterrupted) return code;
+    // A signal that came while this frame was written, say, asks the run to end.
+    if (Signals::interrupted() && number != o.frames.back()) {
+      printError(fmt::format("interrupted after frame {}", number));
+      return kInterrupted;
+    }
     if (code != 0) failed.push_back(number);
     if (first == 0) first = code;
     if (last) break;

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "command.h"
+#include "core/scene/film_file.h"
 #include "frames.h"
 
 namespace pbrt {
@@ -197,6 +198,11 @@ void finishOptions(Options& o) {
     o.build.pixelBounds.emplace();
     std::copy(o.pixelBounds.begin(), o.pixelBounds.end(), o.build.pixelBounds->begin());
   }
+  if (!o.checkpoint.empty() && !isFilm(o.checkpoint))  // a picture might take its place
+    throw Error(fmt::format("--checkpoint {}: its name must end in .film", shown(o.checkpoint)),
+                Failure::usage);
+  if (o.checkpointEvery < 0.1)  // or it does nothing else
+    throw Error("--checkpoint-every takes 100ms or more", Failure::usage);
   if (o.files.empty()) o.files = {"-"};
   if (o.files[0] != "-") o.build.folder = std::filesystem::path(o.files[0]).parent_path();
   if (o.frameList) o.frames = readFrames(*o.frameList);
@@ -219,6 +225,7 @@ void renewReports(Options& o) {
 
 Goal goalOf(const Options& o, int samplesPerPixel) {
   Goal goal = o.goal;
+  goal.evenly = !o.checkpoint.empty();
   const bool byOther = goal.seconds || goal.error;
   if (o.samples.empty())
     goal.endSample =

@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> aovs;
   AovSet aovSet = 0;
   Goal goal;                    // see goalOf()
-  std::string checkpoint;       // file; empty: none
+  std::string checkpoint;       // film file; empty: none
   double checkpointEvery = 60;  // seconds
   bool resume = false;
   bool quiet = false;

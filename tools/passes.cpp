@@ -26,7 +26,7 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
   const std::uint32_t done = taken();
   const std::uint32_t left = goal_.endSample - end_;
   double part = static_cast<double>(done) / std::max(1U, done + left);
-  if (!goal_.seconds && !goal_.error && !goal_.interval && !goal_.showsError) {
+  if (!goal_.seconds && !goal_.error && !goal_.interval && !goal_.showsError && !goal_.evenly) {
     const Pass pass{end_, goal_.endSample, part, 1};
     end_ = pass.end;
     return pass;
@@ -39,6 +39,20 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
   if (end_ < passEnd_) {
     wanted = passEnd_ - end_;
   } else if (done > 0) {
+    if (goal_.error && error) {
+      // The error falls with the root of the number of samples.
+      const double needed = done * std::pow(*error / *goal_.error, 2);
+      if (end_ < errorAt_)  // the clock has split this pass
+        wanted = errorAt_ - end_;
+      else if (done < kEnoughForVariance)
+        wanted = std::min(wanted, static_cast<double>(kEnoughForVariance - done));
+      else if (*error <= *goal_.error)
+        wanted = 0;
+      else
+        wanted = std::min(wanted, std::max(1.0, std::ceil(needed - done)));
+      errorAt_ = end_ + static_cast<std::uint32_t>(wanted);
+      whole = std::min(whole, std::max(needed, double{kEnoughForVariance}));
+    }
     if (goal_.seconds) {
       const double room = std::max(0.0, (*goal_.seconds - seconds) / perSample);
       wanted = std::min(wanted, room);
@@ -47,17 +61,6 @@ Passes::Pass Passes::next(double seconds, double sinceLook, std::optional<double
     if (goal_.interval)
       wanted = std::min(wanted, std::max(1.0, (*goal_.interval - sinceLook) / perSample));
     if (goal_.showsError) wanted = std::min(wanted, std::max(1.0, kErrorEvery / perSample));
-    if (goal_.error && error) {
-      // The error falls with the root of the number of samples.
-      const double needed = done * std::pow(*error / *goal_.error, 2);
-      if (done < kEnoughForVariance)
-        wanted = std::min(wanted, static_cast<double>(kEnoughForVariance - done));
-      else if (*error <= *goal_.error)
-        wanted = 0;
-      else
-        wanted = std::min(wanted, std::max(1.0, std::ceil(needed - done)));
-      whole = std::min(whole, std::max(needed, double{kEnoughForVariance}));
-    }
     part = std::min(1.0, done / std::max(1.0, whole));
   }
   const Pass pass{end_, end_ + static_cast<std::uint32_t>(wanted), part,

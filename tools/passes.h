@@ -1,6 +1,7 @@
 #pragma once
 // When a render ends, and the passes over the film that lead there.
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -19,6 +20,7 @@ struct Goal {
   std::optional<double> error;     // estimatedError()
   std::optional<double> interval;  // seconds between looks at the picture; ends nothing
   bool showsError = false;         // the error is to be estimated now and then; ends nothing
+  bool evenly = false;  // few samples first, for who stops it and looks at it; ends nothing
 };
 
 // The relative error of a picture as its own channels Variance.* have it: the root of relMSE
@@ -45,6 +47,10 @@ class Passes {
   // all runs together; `sinceLook`: since the last look; `error`: the estimate, if it is known.
   Pass next(double seconds, double sinceLook, std::optional<double> error);
 
+  // One past the sample at which the error decides next: independent of the clock, unless
+  // Goal::seconds ends a pass, so that a render ends by its error where any other would.
+  std::uint32_t errorAt() const { return std::max(errorAt_, end_); }
+
   // Samples per pixel up to the end of the pass that next() gave last.
   std::uint32_t taken() const { return end_ - goal_.firstSample; }
 
@@ -52,6 +58,7 @@ class Passes {
   Goal goal_;
   std::uint32_t end_;
   std::uint32_t passEnd_;
+  std::uint32_t errorAt_ = 0;
 };
 
 }  // namespace pbrt

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "core/base/replacement.h"
 #include "core/scene/picture_attributes.h"
 #include "crash.h"
 #include "stats.h"
@@ -36,33 +35,18 @@ std::optional<Error> failureOf(const std::function<void()>& write) {
   }
 }
 
+// The first of them, which tells of the second as well.
+Error joined(const Error& first, const std::vector<Diagnostic>& more) {
+  std::vector<Diagnostic> all = first.diagnostics();
+  all.insert(all.end(), more.begin(), more.end());
+  return Error(std::move(all), first.failure());
+}
+
 void note(const Options& o, const std::string& message) {
   if (!o.quiet) printError(format({Severity::note, message}));
 }
 
 }  // namespace
-
-void checkOutputs(const std::vector<std::string>& outputs) {
-  for (const std::string& output : outputs) {
-    if (isFilm(output))
-      checkReplaceable(output);
-    else
-      checkWritable(output);
-  }
-}
-
-void checkCheckpoint(const Options& o) {
-  if (o.checkpoint.empty()) return;
-  if (!o.resume && fs::exists(o.checkpoint))
-    throw Error(
-        fmt::format("{} is there already: go on from it with --resume, or remove it", o.checkpoint),
-        Failure::io);
-  checkReplaceable(o.checkpoint);
-}
-
-bool writesFilms(const Options& o) {
-  return !o.checkpoint.empty() || std::ranges::any_of(o.outputs, isFilm);
-}
 
 RenderJob::RenderJob(const Options& o, Scene& scene, RenderKey key,
                      std::vector<std::string> outputs, RenderControl& control, Signals& signals)
@@ -78,7 +62,7 @@ RenderJob::RenderJob(const Options& o, Scene& scene, RenderKey key,
   control_.reached.assign(static_cast<std::size_t>(scene.film().tiles()), goal_.firstSample);
 }
 
-void RenderJob::resume() {
+void RenderJob::resume() try {
   if (!fs::exists(o_.checkpoint)) {
     note(o_, fmt::format("{} is not there yet: the render begins", o_.checkpoint));
     return;
@@ -116,6 +100,8 @@ void RenderJob::resume() {
                                  o_.checkpoint)});
   start_ -= found.seconds;
   note(o_, fmt::format("goes on from {}, at {}", o_.checkpoint, progress()));
+} catch (const Error& error) {  // a damaged file, too, is the fault of this render alone
+  throw Error(error.diagnostics(), Failure::scene);
 }
 
 bool RenderJob::run() {
@@ -133,6 +119,7 @@ bool RenderJob::run() {
     const Passes::Pass pass = passes.next(seconds(), now() - looked, error);
     progress.next(pass);
     if (pass.empty()) break;
+    passEnd_ = passes.errorAt();
     if (!renderPass(pass, progress)) {
       progress.end(Stage::interrupted);
       return false;
@@ -149,7 +136,7 @@ bool RenderJob::run() {
 // Returns false if a signal asks the render to end before the pass does.
 bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
   control_.firstSample = goal_.firstSample;
-  control_.endSample = passEnd_ = pass.end;
+  control_.endSample = pass.end;
   while (least() < pass.end) {
     control_.stop = false;  // before its reasons are looked for: those that come later set it again
     if (Signals::interrupted()) return false;
@@ -167,8 +154,16 @@ bool RenderJob::renderPass(const Passes::Pass& pass, Progress& progress) {
     progress.begin();
     try {
       scene_.integrator().render(scene_, scene_.sampler(), scene_.film(), control_);
-    } catch (const Error&) {  // which leaves a film that can be gone on with
-      if (saves() && control_.samplesDone > 0) tryTo([&] { saveCheckpoint(); });
+    } catch (const Error& error) {
+      if (!saves() || control_.samplesDone == 0) throw;
+      // Samples that memory was too short for are black in this film, but are not with more of it.
+      if (control_.faults.outOfMemory()) {
+        if (!fs::exists(o_.checkpoint)) throw;
+        throw joined(error, {{Severity::note, fmt::format("{} is as it was last saved: go on with "
+                                                          "--resume where there is more memory",
+                                                          o_.checkpoint)}});
+      }
+      tryTo([&] { saveCheckpoint(); });
       throw;
     }
     progress.rest();
@@ -181,12 +176,11 @@ bool RenderJob::finish() {
   std::optional<Error> unsaved, unwritten;
   if (saves() && control_.samplesDone > 0) unsaved = failureOf([&] { saveCheckpoint(); });
   if (mayWrite()) unwritten = failureOf([&] { writeOutputs(); });
-  if (unwritten && saves() && !unsaved) {
-    std::vector<Diagnostic> diagnostics = unwritten->diagnostics();
-    diagnostics.push_back(
-        {Severity::note, fmt::format("the samples are in {}: go on with --resume", o_.checkpoint)});
-    throw Error(std::move(diagnostics), unwritten->failure());
-  }
+  if (unwritten && unsaved) throw joined(*unwritten, unsaved->diagnostics());
+  if (unwritten && saves())
+    throw joined(*unwritten, {{Severity::note, fmt::format("the samples are in {}: go on with "
+                                                           "--resume",
+                                                           o_.checkpoint)}});
   if (unwritten) throw *unwritten;
   if (unsaved) throw *unsaved;
   return mayWrite();
@@ -245,7 +239,7 @@ FilmInfo RenderJob::info() const {
   info.firstSample = goal_.firstSample;
   info.endSample = least();
   if (most() > least()) info.reached = control_.reached;
-  info.passEnd = goal_.error ? passEnd_ : 0;
+  info.passEnd = goal_.error && !whole_ ? passEnd_ : 0;
   info.badSamples = control_.faults.count();
   info.seconds = seconds();
   info.attributes = scene_.attributes();

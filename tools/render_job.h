@@ -14,17 +14,9 @@
 
 namespace pbrt {
 
-// These throw Error, Failure::io, unless files of these names can be written: ask before long work.
-// A checkpoint that is there may only be gone on from: no other render writes over it.
-void checkOutputs(const std::vector<std::string>& outputs);
-void checkCheckpoint(const Options& o);
-
-// Whether a render with these options writes film files, which hold its key.
-bool writesFilms(const Options& o);
-
 class RenderJob {
  public:
-  // All outlive it. `key` is that of the scene if writesFilms(o).
+  // All outlive it. `key` is that of the scene if films are written.
   RenderJob(const Options& o, Scene& scene, RenderKey key, std::vector<std::string> outputs,
             RenderControl& control, Signals& signals);
 
@@ -69,7 +61,7 @@ class RenderJob {
   double start_;               // as now() has it, earlier by what earlier runs took
   double due_;                 // when the next checkpoint is
   bool whole_ = false;         // the goal is reached
-  std::uint32_t passEnd_ = 0;  // of the pass in progress
+  std::uint32_t passEnd_ = 0;  // see FilmInfo
 };
 
 }  // namespace pbrt

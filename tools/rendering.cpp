@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <filesystem>
 
 #include "core/base/file.h"
+#include "core/base/replacement.h"
+#include "crash.h"
 #include "reading.h"
 #include "render_job.h"
 #include "stats.h"
@@ -12,8 +16,37 @@
 
 namespace pbrt {
 
+namespace {
+
+// These throw unless files of these names can be written: before long work.
+void checkOutputs(const std::vector<std::string>& outputs) {
+  for (const std::string& output : outputs) {
+    if (isFilm(output))
+      checkReplaceable(output);
+    else
+      checkWritable(output);
+  }
+}
+
+// One that is there may only be gone on from: no other render writes over it.
+void checkCheckpoint(const Options& o) {
+  if (o.checkpoint.empty()) return;
+  if (!o.resume && std::filesystem::exists(o.checkpoint))
+    throw Error(fmt::format("{} is there already: go on from it with --resume, or remove it",
+                            o.checkpoint));
+  checkReplaceable(o.checkpoint);
+}
+
+// Whether film files may be written, which hold the key of the render: the scene may name one, too.
+bool mayWriteFilms(const Options& o) {
+  return !o.checkpoint.empty() || o.outputs.empty() || std::ranges::any_of(o.outputs, isFilm);
+}
+
+}  // namespace
+
 int render(const Options& o, PluginLoader& loader) {
   Times t;
+  adviseAfterCrash("");  // what is there of the frame before does not help
   checkOutputs(o.outputs);
   checkCheckpoint(o);
   RenderControl control;
@@ -21,7 +54,7 @@ int render(const Options& o, PluginLoader& loader) {
   control.strict = o.strict;
   Signals signals(control.stop);
   std::optional<FileDigest> digest;
-  if (writesFilms(o)) digest.emplace();
+  if (mayWriteFilms(o)) digest.emplace();
   SceneReader reader(loader, o.build);
   const auto build = [&](auto step) {
     const double start = now();
@@ -42,8 +75,10 @@ int render(const Options& o, PluginLoader& loader) {
     checkOutputs(outputs);
   }
   RenderKey key;
-  if (digest)
+  if (digest) {
     key = renderKey(*scene, reader.dialect().dialect, o.build.permissive, loader, digest->value());
+    if (o.frame) key.settings += fmt::format(", frame {}", *o.frame);  // which any string may hold
+  }
   t.ready = now();
 
   signals.catchInterruptions();

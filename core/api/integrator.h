@@ -56,7 +56,8 @@ class SamplingIntegrator : public Integrator {
   // Called before the first rays of each render, not when it goes on, within its limit of threads;
   // `resolution` is that of the whole picture. May throw Error.
   virtual void prepare(const World& /*world*/, Point2i /*resolution*/) const {}
-  // The camera rays of so many by so many neighbouring pixels are looked at together; 32 at most.
+  // The camera rays of so many by so many neighbouring pixels are looked at together: a power of
+  // two, 32 at most.
   virtual int blockWidth() const { return kBlock; }
   // What such rays see first, row by row, `width` to a row; a block may be cut off at the border of
   // the picture. Instead of what the world has there an integrator may find what it has itself: it

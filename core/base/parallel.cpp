@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cmath>
 #include <fstream>
 #include <latch>
@@ -75,6 +76,9 @@ namespace {
 // when memory may be short. So as many are tried first, all at once, and then oneTBB's are started,
 // which it keeps.
 void startThreads(int n) {
+  // The least of several limits counts.
+  n = std::min(n, static_cast<int>(tbb::global_control::active_value(
+                      tbb::global_control::max_allowed_parallelism)));
   static std::atomic<int> started = 1;  // the one that runs here
   if (n <= started) return;
   // Where addresses are rationed, a heap for each thread (64 MiB of them, in glibc) is too much.
@@ -96,7 +100,17 @@ void startThreads(int n) {
                 Failure::io);
   }
   join();
-  tbb::task_arena(n).execute([n] { tbb::parallel_for(0, 2 * n, [](int) {}); });
+  // oneTBB starts a thread only while there is work for it: bodies that wait for one another, but
+  // not for ever, as somebody else's loop may hold some of its threads.
+  std::atomic<int> here = 0;
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  const auto waitForAll = [&](int) {
+    ++here;
+    while (here < n && std::chrono::steady_clock::now() < patience)
+      std::this_thread::sleep_for(std::chrono::microseconds(100));
+  };
+  tbb::task_arena(n).execute(
+      [&] { tbb::parallel_for(0, n, waitForAll, tbb::simple_partitioner()); });
   started = n;
 }
 

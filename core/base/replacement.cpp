@@ -40,13 +40,19 @@ bool lock(int descriptor) {
 }
 
 // Removes what killed processes have left. Only many at a time that write the same file have names
-// beyond these. A file system without locks keeps it all.
+// beyond these. A file system without locks keeps it all. Until the lock is ours, the file may have
+// become the target and its name another's: whoever holds the lock of the file that has the name
+// now is its only owner.
 void removeAbandoned(const fs::path& target) {
   for (int k = 0; k < 8; ++k) {
     const fs::path file = temporaryName(target, k);
     const int descriptor = open(file.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
     if (descriptor < 0) continue;
-    if (lock(descriptor)) unlink(file.c_str());
+    struct stat held {
+    }, named{};
+    if (lock(descriptor) && fstat(descriptor, &held) == 0 && lstat(file.c_str(), &named) == 0 &&
+        held.st_dev == named.st_dev && held.st_ino == named.st_ino)
+      unlink(file.c_str());
     close(descriptor);
   }
 }

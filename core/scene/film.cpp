@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <bit>
 #include <limits>
 
 #include "core/base/error.h"
 #include "core/base/memory_limit.h"
+#include "core/plugin/culprit.h"
 
 namespace pbrt {
 
@@ -41,6 +43,14 @@ Bounds2i wholeBlocks(const Bounds2i& part, const Bounds2i& whole, int block) {
   return intersect(widened, whole);
 }
 
+float weight(const Filter& filter, Vec2 p) {
+  try {
+    return filter.evaluate(p);
+  } catch (...) {
+    std::rethrow_exception(asError());
+  }
+}
+
 }  // namespace
 
 Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings)
@@ -59,6 +69,13 @@ Film::Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const
                               radius_[i], kLeast, kMost));
   if (!(std::max(radius_.x, radius_.y) <= kWidest))
     throw Error(fmt::format("a filter cannot reach farther than {} pixels", kWidest));
+  // Other blocks would be cut by the tiles, elsewhere in a crop than in the whole picture.
+  if (settings.block < 1 || settings.block > kTile ||
+      !std::has_single_bit(static_cast<unsigned>(settings.block)))
+    throw Error(fmt::format("the integrator has blocks of {0} x {0} pixels; their width must be a "
+                            "power of two, {1} at most",
+                            settings.block, kTile),
+                Failure::plugin);
   // The centre of pixel i is at i + 1/2; a sample at x reaches the centres within the radius.
   reach_ = glm::max(Point2i(glm::ceil(radius_ - 0.5F)), 0);
   sampled_ = wholeBlocks({crop.lo - reach_, crop.hi + reach_}, {-reach_, resolution + reach_},
@@ -90,22 +107,29 @@ void Film::makeSums() {
 }
 
 void Film::makeTable(const Filter& filter) {
+  const PluginCode* plugin = pluginOf(filter);
+  const std::string name = plugin ? plugin->label() : "the filter";
   // Weights at the centres of the table's cells: positions are rounded to 1/32 of the radius.
   tableScale_ = static_cast<float>(kTable) / radius_;
   table_.resize(std::size_t{kTable} * kTable);
   float greatest = 0;
   for (int y = 0; y < kTable; ++y)
     for (int x = 0; x < kTable; ++x) {
-      const float w = filter.evaluate((Vec2(x, y) + 0.5F) / tableScale_);
+      const Vec2 p = (Vec2(x, y) + 0.5F) / tableScale_;
+      const float w = weight(filter, p);
+      if (!std::isfinite(w))
+        throw Error(fmt::format("{} gives the weight {} at ({}, {}) pixels from a pixel's centre",
+                                name, w, p.x, p.y),
+                    Failure::plugin);
       table_[y * kTable + x] = w;
       greatest = std::max(greatest, std::abs(w));
     }
+  if (greatest == 0)
+    throw Error(name + " gives no sample any weight: the picture would be empty", Failure::plugin);
   // Multiples of 2^-24 of the greatest: the sum of the weights of half a billion samples is exact
   // in a double, and products with samples spread over fewer bits.
-  if (greatest > 0 && std::isfinite(greatest)) {
-    const int unit = std::ilogb(greatest) - 23;
-    for (float& w : table_) w = std::ldexp(std::rint(std::ldexp(w, -unit)), unit);
-  }
+  const int unit = std::ilogb(greatest) - 23;
+  for (float& w : table_) w = std::ldexp(std::rint(std::ldexp(w, -unit)), unit);
 
   // A pixel is sum(w L) / sum(w) over independent samples of variance s^2, n in each pixel:
   // s^2 sum(w^2) / sum(w)^2 = s^2 / n * integral(w^2) / integral(w)^2, over areas in pixels.
@@ -141,15 +165,16 @@ void Film::spread(int tile, Point2 film, Add add) const {
   }
 }
 
-void Film::add(int tile, Point2 film, const Spectrum& radiance, float alpha) {
+void Film::add(int tile, Point2 film, const Spectrum& radiance, bool opaque) {
   Spectrum L = radiance;
   if (const float y = luminance(L); y > brightest_) L *= brightest_ / y;
   constexpr float kMost = std::numeric_limits<float>::max();
   L = glm::clamp(L * scale_, -kMost, kMost);
   spread(tile, film, [&](int x, int y, double w) {
     PictureSums& sums = picture_.row(tile, y)[x];
-    sums.rgba.add({w * L.x, w * L.y, w * L.z, w * alpha});
+    sums.rgb.add({w * L.x, w * L.y, w * L.z});
     sums.weight += w;
+    sums.alpha += opaque ? w : 0;
   });
   if (stores(kVariance))
     spread(tile, film, [&](int x, int y, double w) {

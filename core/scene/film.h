@@ -27,7 +27,8 @@ class Film {
     int block = 4;
   };
 
-  // `crop`: the pixels that are wanted, within [0, resolution). Throws Error.
+  // `crop`: the pixels that are wanted, within [0, resolution). Throws Error: not enough memory, a
+  // filter that reaches too far or gives what is no number, wrong blocks.
   Film(Point2i resolution, const Bounds2i& crop, const Filter& filter, const Settings& settings);
 
   Point2i resolution() const { return resolution_; }
@@ -42,8 +43,8 @@ class Film {
   Bounds2i tilePixels(int tile) const;
 
   // Adds a sample taken at `film` (in pixels, within tilePixels(tile)). L is a number; what is
-  // infinite when scaled counts as the largest float.
-  void add(int tile, Point2 film, const Spectrum& L, float alpha);
+  // infinite when scaled counts as the largest float. Alpha is the share of opaque samples.
+  void add(int tile, Point2 film, const Spectrum& L, bool opaque);
   // Whether any of these is stored beside the picture.
   bool stores(AovSet aovs) const { return (aovs_ & aovs) != 0; }
   // Adds what sample `index` of a pixel saw first, if the film stores any of kOfSurface.

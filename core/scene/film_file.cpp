@@ -1,7 +1,9 @@
 #include "core/scene/film_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <bit>
@@ -107,9 +109,13 @@ void FilmReader::State::readHeader() {
 FilmReader::FilmReader(const std::filesystem::path& file) : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.file = file;
-  s.stream.reset(std::fopen(file.c_str(), "rb"));
+  // Nobody waits at a pipe that is about to be refused.
+  const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
+  if (descriptor < 0) s.fail(systemMessage());
+  s.stream.reset(fdopen(descriptor, "rb"));
+  if (!s.stream) close(descriptor);
   struct stat status = {};
-  if (!s.stream || fstat(fileno(s.stream.get()), &status) != 0) s.fail(systemMessage());
+  if (!s.stream || fstat(descriptor, &status) != 0) s.fail(systemMessage());
   if (!S_ISREG(status.st_mode)) s.fail("it is no file on a disk");
   s.left = static_cast<std::uint64_t>(status.st_size);
   s.readHeader();

@@ -11,8 +11,12 @@ namespace {
 
 using Json = nlohmann::json;
 
+[[noreturn]] void refuse() {
+  throw std::runtime_error("its header makes no sense");
+}
+
 void require(bool sense) {
-  if (!sense) throw std::runtime_error("its header makes no sense");
+  if (!sense) refuse();
 }
 
 // JSON has neither infinities nor what is no number: they are strings.
@@ -143,7 +147,7 @@ std::string filmHeader(const FilmInfo& info) {
   return json.dump();
 }
 
-FilmInfo readFilmHeader(std::string_view text) {
+FilmInfo readFilmHeader(std::string_view text) try {
   const Json json = Json::parse(text);
   FilmInfo info;
   const Json& key = json.at("key");
@@ -170,9 +174,12 @@ FilmInfo readFilmHeader(std::string_view text) {
   for (int i = 0; i < 3; ++i) info.origin[i] = number(json.at("origin").at(i));
   info.badSamples = integer<std::uint64_t>(json.at("badSamples"));
   info.seconds = number(json.at("seconds"));
+  require(std::isfinite(info.seconds) && info.seconds >= 0);
   for (const auto& [name, value] : json.at("attributes").items())
     info.attributes[bytes(name)] = attribute(value);
   return info;
+} catch (const Json::exception&) {  // no JSON, something missing, or of another type
+  refuse();
 }
 
 }  // namespace pbrt

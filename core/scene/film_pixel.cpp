@@ -15,7 +15,7 @@ double variance(const FilmPixel& pixel, int c) {
   const double weight = pixel.picture.weight, n = pixel.noise.count;
   if (n < 2 || weight == 0) return 0;
   const ExactSums<7>& noise = pixel.noise.sums;
-  const double m = pixel.picture.rgba.value(c) / weight;
+  const double m = pixel.picture.rgb.value(c) / weight;
   const double squares = noise.value(3 + c) - 2 * m * noise.value(c) + m * m * noise.value(6);
   return std::max(0.0, squares) * (n / ((n - 1) * weight * weight));
 }
@@ -76,7 +76,7 @@ void appendRow(Row row, const PictureFrame& frame) {
     row.append([&](const FilmPixel& pixel) {
       const PictureSums& sums = pixel.picture;
       if (sums.weight == 0) return 0.0;
-      const double value = sums.rgba.value(c) * (1 / sums.weight);
+      const double sum = c == 3 ? sums.alpha : sums.rgb.value(c), value = sum * (1 / sums.weight);
       return c == 3 ? std::clamp(value, 0.0, 1.0) : std::max(0.0, value);
     });
   if (frame.aovs & kVariance)

@@ -14,12 +14,14 @@ namespace pbrt {
 // Sums over samples of radiance L that the filter weights with w. Films keep arrays of these; zero
 // bytes are empty sums.
 struct PictureSums {
-  ExactSums<4> rgba;  // w L and w alpha
-  double weight = 0;  // w, which are multiples of one number: their sum is exact
+  ExactSums<3> rgb;  // w L
+  // w, which are multiples of one number, and those of samples that alpha is 1 for: exact, too.
+  double weight = 0, alpha = 0;
 
   PictureSums& operator+=(const PictureSums& o) {
-    rgba += o.rgba;
+    rgb += o.rgb;
     weight += o.weight;
+    alpha += o.alpha;
     return *this;
   }
 };

@@ -71,9 +71,8 @@ struct TileJob {
           renderBlock(tile, intersect(pixels, {{x, y}, {x + blockWidth, y + blockWidth}}), s,
                       worker);
       control.rays.fetch_add(Accel::takeRayCount(), std::memory_order_relaxed);
-      control.samplesDone.fetch_add(samples, std::memory_order_relaxed);
+      control.samplesDone.fetch_add(samples, std::memory_order_release);
     }
-    ++control.tilesDone;
   }
 
   void renderBlock(int tile, const Bounds2i& pixels, std::uint32_t index, Worker& worker) const {
@@ -98,7 +97,7 @@ struct TileJob {
           add({place});
           sample = {};
         }
-        film.add(tile, worker.samples[n].film, sample.L, sample.alpha);
+        film.add(tile, worker.samples[n].film, sample.L, sample.opaque);
         if (!sample.surface) continue;
         if (allFinite(*sample.surface))
           film.add(tile, place.pixel, index, *sample.surface);
@@ -110,7 +109,7 @@ struct TileJob {
   // What a sample gives; by itself one that counts as black.
   struct Sample {
     Spectrum L{0};
-    float alpha = 1;
+    bool opaque = true;
     bool finite = true;
     std::optional<FirstSurface> surface;
   };
@@ -179,7 +178,7 @@ struct TileJob {
     const Point3 eye = camera.ray.o;
     if (world.bordersMedia() && (stores || isBlack(s.L))) passBorders(camera.ray, hit);
     // As in pbrt-v1: a sky that shines is no hole in the picture. Nor is the barrel of a lens.
-    s.alpha = !hit.found() && isBlack(s.L) ? 0 : 1;
+    s.opaque = hit.found() || !isBlack(s.L);
     if (!hit.found() || !stores) return;
     s.surface = firstSurface(eye, camera.ray, hit, worker.scratch);
     worker.scratch.release();
@@ -269,15 +268,20 @@ void SamplingIntegrator::render(const World& world, const Sampler& sampler, Film
     tbb::parallel_for(
         tbb::blocked_range<int>(0, film.tiles(), 1),
         [&](const tbb::blocked_range<int>& range) {
-          for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
-            job.render(tile, workers.local());
+          try {
+            for (int tile = range.begin(); tile < range.end() && !control.stop; ++tile)
+              job.render(tile, workers.local());
+          } catch (...) {  // no sample's fault; nobody else need work on
+            control.stop = true;
+            std::rethrow_exception(asError());
+          }
           currentSample = {};
         },
         tbb::simple_partitioner());
   });
   // oneTBB has ordered the tiles before what follows; this read says so to ThreadSanitizer, which
   // does not see into it.
-  static_cast<void>(control.tilesDone.load());
+  static_cast<void>(control.samplesDone.load(std::memory_order_acquire));
   control.faults.locate([&](const SamplePlace& at) { return job.culprit(at, sampler); });
   currentSample = {};
   if (control.faults.outOfMemory()) throw Error("out of memory: " + describe(control.faults));

@@ -27,10 +27,10 @@ struct RenderControl {
   // does, those that go on need not.
   bool prepared = false;
 
-  // Ends the render once each tile in progress has one sample more for all of its pixels.
+  // Ends the render once each tile in progress has one sample more for all of its pixels; while the
+  // integrator prepares itself, nobody looks.
   std::atomic<bool> stop{false};
-  // Of all renders with this control: tiles that have reached endSample, and samples of pixels.
-  std::atomic<int> tilesDone{0};
+  // Of all renders with this control: samples of pixels, and rays.
   std::atomic<std::uint64_t> samplesDone{0};
   std::atomic<std::uint64_t> rays{0};
   FaultLog faults;      // samples that failed: they count as black

@@ -95,7 +95,7 @@ TEST_F(Checkpoint, NothingThatIsThereIsWrittenOver) {
   const std::string film = bytes("c.film");
   folder.write("other.pbrt", foggyScene() + "# another byte\n");
   const std::vector<std::tuple<std::string, int, std::string>> cases = {
-      {"--spp 4 scene.pbrt", 4, "is there already"},
+      {"--spp 4 scene.pbrt", 3, "is there already"},
       {"--spp 4 --resume other.pbrt", 3, "another scene"},
       {"--spp 5 --resume scene.pbrt", 3, "spreads 4 samples"},
       {"--spp 4 --seed 7 --resume scene.pbrt", 3, "another seed"},
@@ -125,7 +125,7 @@ TEST_F(Checkpoint, DamagedOnesAreRefusedAndKept) {
                                  film.substr(0, film.size() - 1), film + "x", flipped}) {
     folder.write("c.film", bad);
     const Outcome outcome = pbrt("--spp 2 --checkpoint c.film --resume --outfile out2.exr");
-    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_EQ(outcome.code, 3) << outcome.err;
     EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
     EXPECT_EQ(bytes("c.film"), bad);
     EXPECT_FALSE(has("out2.exr"));
@@ -181,7 +181,7 @@ TEST_F(Checkpoint, TheTargetErrorIsReachedWithTheSameSamples) {
 // It is tried again; in the end it is an error, but the picture is there.
 TEST_F(Checkpoint, RendersOnWhereItCannotBeSaved) {
   Running render(folder,
-                 "--quiet --spp 60 --checkpoint c.film --checkpoint-every 10ms "
+                 "--quiet --spp 60 --checkpoint c.film --checkpoint-every 100ms "
                  "--outfile out.exr scene.pbrt");
   render.until([&] { return has("c.film"); });
   fs::remove(folder.path() / "c.film");
@@ -192,10 +192,24 @@ TEST_F(Checkpoint, RendersOnWhereItCannotBeSaved) {
   EXPECT_EQ(std::get<int>(picture("out.exr").attributes.at("samplesPerPixel")), 60);
 }
 
+TEST_F(Checkpoint, AllThatCannotBeWrittenIsTold) {
+  Running render(folder, "--quiet --spp 1000000 --checkpoint c.film --outfile out.exr scene.pbrt");
+  render.untilItHandles(SIGTERM);
+  fs::create_directory(folder.path() / "c.film");
+  fs::create_directory(folder.path() / "out.exr");
+  std::this_thread::sleep_for(std::chrono::milliseconds(200));
+  render.send(SIGTERM);
+  const Outcome outcome = render.end();
+  EXPECT_EQ(outcome.code, 4);
+  EXPECT_NE(outcome.err.find("cannot write out.exr"), std::string::npos) << outcome.err;
+  EXPECT_NE(outcome.err.find("cannot write c.film"), std::string::npos) << outcome.err;
+}
+
 TEST_F(Checkpoint, WrongWordsAreUsageErrors) {
-  for (const char* words : {"--resume", "--checkpoint-every 5s", "--checkpoint",
-                            "--checkpoint c.film --checkpoint-every 0",
-                            "--checkpoint c.film --checkpoint-every soon"}) {
+  for (const char* words :
+       {"--resume", "--checkpoint-every 5s", "--checkpoint",
+        "--checkpoint c.film --checkpoint-every 0", "--checkpoint c.film --checkpoint-every 99ms",
+        "--checkpoint out.exr --outfile out.exr", "--checkpoint c.film --checkpoint-every soon"}) {
     const Outcome outcome = folder.pbrt(std::string("scene.pbrt ") + words);
     EXPECT_EQ(outcome.code, 2) << words << outcome.err;
     EXPECT_EQ(folder.files(), 1U);

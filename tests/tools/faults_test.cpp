@@ -33,7 +33,9 @@ std::string scene(Parts parts) {
   return "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"faulty\" " + parts["cameras"] +
          fmt::format("\nFilm \"image\" \"integer xresolution\" {0} \"integer yresolution\" {0}\n",
                      kSize) +
-         "PixelFilter \"box\"\nSampler \"faulty\" \"integer pixelsamples\" 2 " + parts["samplers"] +
+         "PixelFilter " +
+         (parts.contains("filters") ? "\"faulty\" " + parts["filters"] : "\"box\"") +
+         "\nSampler \"faulty\" \"integer pixelsamples\" 2 " + parts["samplers"] +
          (ownLight ? "\nSurfaceIntegrator \"faulty\" " + parts["integrators"]
                    : "\nSurfaceIntegrator \"directlighting\"") +
          "\nVolumeIntegrator \"emission\"\nWorldBegin\nVolume \"faulty\" " + parts["volumes"] +
@@ -153,6 +155,19 @@ TEST(FaultsOfSurfaces, AreFoundWhereTheyAreStored) {
   for (const float z : *image.channel("N.Z")) EXPECT_TRUE(std::isfinite(z));
 }
 
+// What every pixel needs is no matter of single samples.
+TEST(FaultsOfFilters, EndTheRender) {
+  const Folder folder;
+  for (const auto& [kind, says] : {std::pair("nan", " gives the weight nan at (0.3"),
+                                   {"infinite", " gives the weight inf at"},
+                                   {"throws", " threw: no such luck"}}) {
+    const Outcome o = render(folder, {{"filters", fault(kind)}});
+    EXPECT_EQ(o.code, 5) << kind;
+    EXPECT_THAT(o.err, HasSubstr("error: " + label("filters") + says));
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.exr"));
+}
+
 TEST(FaultsOfMaking, NameThePluginAndTheStatement) {
   const Folder folder;
   for (const std::string kind : {"shapes", "materials", "lights", "cameras", "volumes"})
@@ -208,8 +223,24 @@ TEST(OutOfMemory, EndsTheRender) {
   const Outcome o = render(folder, {{"materials", fault("eats-memory")}}, "--checkpoint part.film");
   EXPECT_EQ(o.code, 3);
   EXPECT_THAT(o.err, HasSubstr("error: out of memory: 8 samples failed"));
-  EXPECT_TRUE(std::filesystem::exists(folder.path() / "part.film"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "part.film"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.exr"));
+}
+
+// With more memory the samples that failed are none.
+TEST(OutOfMemory, KeepsTheLastCheckpoint) {
+  const Folder folder;
+  const Parts parts{{"samplers",
+                     "\"integer pixel\" [3 4] \"integer sample\" 1 "
+                     "\"string fault\" \"eats-memory\""}};
+  const std::string film = "--checkpoint part.film ";
+  ASSERT_EQ(render(folder, parts, "--samples 0..1 " + film).code, 0);
+  const std::string before = contents(folder.path() / "part.film");
+  const Outcome o = render(folder, parts, "--samples 0..2 --resume " + film);
+  EXPECT_EQ(o.code, 3);
+  EXPECT_THAT(o.err, HasSubstr("error: out of memory: 1 sample failed"));
+  EXPECT_THAT(o.err, HasSubstr("part.film is as it was last saved: go on with --resume"));
+  EXPECT_EQ(contents(folder.path() / "part.film"), before);
 }
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
@@ -255,6 +286,17 @@ TEST(CrashesLater, LeaveTheCheckpointWhole) {
               HasSubstr("\n  part.film holds the samples so far: go on with --resume\n"));
   EXPECT_EQ(contents(folder.path() / "part.film"), before);
   EXPECT_EQ(render(folder, parts, "--samples 0..3 --resume " + film).code, 0);
+}
+
+TEST(CrashesOfAFrame, AdviseNothingOfTheFrameBefore) {
+  const Folder folder;
+  folder.write("part1.pbrt", "");
+  folder.write("part2.pbrt", "Material \"faulty\" " + fault("null"));
+  folder.write("scene.pbrt", scene({{"materials", "Include \"part#.pbrt\""}}));
+  const Outcome o = folder.pbrt("--plugin-path " + kPlugins +
+                                " --frames 1-2 --checkpoint '#.film' --outfile '#.exr' scene.pbrt");
+  EXPECT_EQ(o.code, 128 + SIGSEGV);
+  EXPECT_THAT(o.err, AllOf(HasSubstr("materials/faulty crashed"), Not(HasSubstr("1.film"))));
 }
 
 #endif

@@ -6,8 +6,7 @@
 
 #include <sstream>
 
-#include "core/base/image.h"
-#include "tests/command.h"
+#include "tests/tools/frames_scene.h"
 
 namespace pbrt::test {
 namespace {
@@ -15,20 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-std::string scene(const std::string& world, int side = 8) {
-  return fmt::format(
-      "LookAt 0 -6 2  0 0 0  0 0 1\nCamera \"perspective\" \"float shutterclose\" 0\n"
-      "Film \"image\" \"integer xresolution\" {} \"integer yresolution\" {}\n"
-      "Sampler \"random\" \"integer pixelsamples\" 2\nIntegrator \"whitted\"\nWorldBegin\n"
-      "LightSource \"point\" \"rgb I\" [40 40 40] \"point from\" [3 -5 6]\nMaterial "
-      "\"matte\"\n{}\nWorldEnd\n",
-      side, side, world);
-}
-
-class Frames : public testing::Test {
+class FramesTest : public Frames {
  protected:
-  void SetUp() override { folder.write("scene.pbrt", scene("Shape \"sphere\"")); }
-
   // The names of the pictures, in the order in which they were made.
   std::string rendered(const std::string& arguments) const {
     const Outcome outcome = folder.pbrt("--outfile '#.png' scene.pbrt --frames " + arguments);
@@ -40,13 +27,9 @@ class Frames : public testing::Test {
     EXPECT_EQ(folder.files(), 1U) << "no other picture";
     return names;
   }
-  auto channels(const std::string& name) const { return readExr(folder.path() / name).channels; }
-  bool there(const std::string& name) const { return fs::exists(folder.path() / name); }
-
-  Folder folder;
 };
 
-TEST_F(Frames, RangesStepsAndLists) {
+TEST_F(FramesTest, RangesStepsAndLists) {
   EXPECT_EQ(rendered("7"), "7 ");
   EXPECT_EQ(rendered("0-3"), "0 1 2 3 ");
   EXPECT_EQ(rendered("1-10:4"), "1 5 9 ");
@@ -56,7 +39,7 @@ TEST_F(Frames, RangesStepsAndLists) {
   EXPECT_EQ(rendered("2147483646-2147483647"), "2147483646 2147483647 ");
 }
 
-TEST_F(Frames, WrongRangesAreOneClearLine) {
+TEST_F(FramesTest, WrongRangesAreOneClearLine) {
   for (const char* range : {"5-1",   "1-",     "-3",  "1-999999999999", "",          "a",    "1..3",
                             "1-3:0", "1-3:-1", "7:2", "1,,2",           "1,",        ",1",   "1-3:",
                             "1 - 3", "0x7",    "1.5", "2147483648",     "0-1000000", "1-2-3"}) {
@@ -69,11 +52,12 @@ TEST_F(Frames, WrongRangesAreOneClearLine) {
   }
 }
 
-TEST_F(Frames, FramesNeedNamesOfTheirOwn) {
+TEST_F(FramesTest, FramesNeedNamesOfTheirOwn) {
   for (const char* arguments :
        {"--frames 1-2", "--frames 7 --outfile a.png",
         "--frames 1-2 --outfile '#.png' --outfile b.exr",
         "--frames 1-2 --outfile '#.exr' --checkpoint a.film",
+        "--frames 1 --outfile '#.film' --checkpoint './##.film' --resume --skip-existing",
         "--frames 1-2 --outfile '#.exr' --write-every 1s", "--frames 1-2 --outfile '#.exr' -",
         "--skip-existing --outfile a.exr", "--fps 24 --outfile a.exr",
         "--frames 1 --outfile '#.exr' --fps 0"}) {
@@ -83,7 +67,7 @@ TEST_F(Frames, FramesNeedNamesOfTheirOwn) {
   }
 }
 
-TEST_F(Frames, OneAloneIsTheSameAsInARun) {
+TEST_F(FramesTest, OneAloneIsTheSameAsInARun) {
   folder.write("scene.pbrt", scene("Include \"at##.pbrt\" Shape \"sphere\""));
   for (int i = 8; i <= 11; ++i)
     folder.write(fmt::format("at{:02}.pbrt", i), fmt::format("Translate {} 0 0", i - 9));
@@ -100,7 +84,7 @@ TEST_F(Frames, OneAloneIsTheSameAsInARun) {
 }
 
 // A fluid's particles, a scene's own name, a texture's: all strings have the number.
-TEST_F(Frames, EveryStringHasTheNumber) {
+TEST_F(FramesTest, EveryStringHasTheNumber) {
   const std::string fluid =
       "Shape \"metaballs\" \"string filename\" \"{}\" \"float radius\" 1.5 "
       "\"string kernel\" \"wyvill\"";
@@ -124,7 +108,20 @@ TEST_F(Frames, EveryStringHasTheNumber) {
   EXPECT_NE(channels("1.exr"), channels("2.exr"));
 }
 
-TEST_F(Frames, WithoutFramesANumberSignIsOne) {
+// One that an included file names is looked for beside that file, then beside the scene.
+TEST_F(FramesTest, TheFolderOfASceneHasTheNumberToo) {
+  ASSERT_EQ(folder.pbrt("--outfile a.png scene.pbrt").code, 0);
+  fs::create_directories(folder.path() / "shot01" / "parts");
+  fs::rename(folder.path() / "a.png", folder.path() / "shot01" / "a.png");
+  folder.write("shot01/scene.pbrt", scene("Include \"parts/part.pbrt\""));
+  folder.write("shot01/parts/part.pbrt",
+               "Texture \"a\" \"color\" \"imagemap\" \"string filename\" \"a.png\"\n"
+               "Material \"matte\" \"texture Kd\" \"a\" Shape \"sphere\"\n");
+  const Outcome outcome = folder.pbrt("--frames 1 --outfile '#.exr' 'shot##/scene.pbrt'");
+  EXPECT_EQ(outcome.code, 0) << outcome.err;
+}
+
+TEST_F(FramesTest, WithoutFramesANumberSignIsOne) {
   folder.write("##.pbrt", scene("Include \"a#.pbrt\""));
   folder.write("a#.pbrt", "Shape \"sphere\"");
   const Outcome outcome = folder.pbrt("--outfile '#.exr' '##.pbrt'");
@@ -133,7 +130,7 @@ TEST_F(Frames, WithoutFramesANumberSignIsOne) {
 }
 
 // The ball goes 3 units in a second; --fps 4 takes the frames 0, 2 and 4 at 0, 0.5 and 1 second.
-TEST_F(Frames, TimeGoesOn) {
+TEST_F(FramesTest, TimeGoesOn) {
   folder.write("scene.pbrt", "TransformTimes 0 1\n" + scene("ActiveTransform EndTime\n"
                                                             "Translate 3 0 0 Shape \"sphere\""));
   EXPECT_EQ(folder.pbrt("--frames 0-4:2 --fps 4 --outfile '#.exr' scene.pbrt").code, 0);
@@ -146,7 +143,7 @@ TEST_F(Frames, TimeGoesOn) {
   EXPECT_EQ(channels("fixed2.exr"), channels("0.exr")) << "without --fps time stands still";
 }
 
-TEST_F(Frames, WhatIsThereIsLeftAlone) {
+TEST_F(FramesTest, WhatIsThereIsLeftAlone) {
   folder.write("1.exr", "not touched");
   folder.write("2.exr", "its other picture is missing");
   folder.write("1.png", "nor this one");
@@ -166,7 +163,16 @@ TEST_F(Frames, WhatIsThereIsLeftAlone) {
   EXPECT_EQ(channels("1.exr"), channels("3.exr")) << "without the option all are made anew";
 }
 
-TEST_F(Frames, AFrameThatFailsStopsNoOther) {
+TEST_F(FramesTest, WhatIsThereIsCheckedNonetheless) {
+  folder.write("1.exr", "");
+  for (const char* how : {"--check", "--format"})
+    for (const char* output : {"", "--outfile '#.exr' "}) {
+      const std::string arguments = std::string(how) + " --frames 1 --skip-existing " + output;
+      EXPECT_EQ(folder.pbrt(arguments + "no.pbrt").code, 4) << arguments;
+    }
+}
+
+TEST_F(FramesTest, AFrameThatFailsStopsNoOther) {
   folder.write("scene.pbrt", scene("Include \"part#.pbrt\""));
   folder.write("part1.pbrt", "Shape \"sphere\"");
   folder.write("part2.pbrt", "Shape \"sphere\" \"float radius\" \"wide\"");
@@ -180,7 +186,7 @@ TEST_F(Frames, AFrameThatFailsStopsNoOther) {
   EXPECT_THAT(outcome.err, HasSubstr("3 of 5 frames failed: 2, 3, 4\n"));
 }
 
-TEST_F(Frames, AMissingSceneStopsNoOther) {
+TEST_F(FramesTest, AMissingSceneStopsNoOther) {
   fs::copy(folder.path() / "scene.pbrt", folder.path() / "s3.pbrt");
   const Outcome outcome = folder.pbrt("--frames 1-3 --outfile '#.png' 's#.pbrt'");
   EXPECT_EQ(outcome.code, 4);
@@ -189,7 +195,7 @@ TEST_F(Frames, AMissingSceneStopsNoOther) {
 }
 
 // Errors that are passed over are counted anew for each frame.
-TEST_F(Frames, PermissiveFramesCountTheirOwnErrors) {
+TEST_F(FramesTest, PermissiveFramesCountTheirOwnErrors) {
   folder.write("scene.pbrt", scene("Include \"part#.pbrt\""));
   folder.write("part1.pbrt", "Shape \"nosuchshape\"");
   folder.write("part2.pbrt", "Shape \"sphere\"");
@@ -202,43 +208,11 @@ TEST_F(Frames, PermissiveFramesCountTheirOwnErrors) {
   EXPECT_THAT(check.err, HasSubstr("1 of 2 frames failed: 1\n"));
 }
 
-TEST_F(Frames, PicturesThatCannotBeWrittenEndTheRun) {
+TEST_F(FramesTest, PicturesThatCannotBeWrittenEndTheRun) {
   const Outcome outcome = folder.pbrt("--frames 1-9 --outfile 'nowhere/#.png' scene.pbrt");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_THAT(outcome.err, HasSubstr("nowhere/1.png"));
   EXPECT_EQ(outcome.err.find("nowhere/2.png"), std::string::npos);
-}
-
-// The second frame would take days. What it has is in its checkpoint, but its name is not taken.
-TEST_F(Frames, AnInterruptionEndsTheRun) {
-  std::string text = scene("Shape \"sphere\"");
-  text.replace(text.find("Sampler"), text.find("Integrator") - text.find("Sampler"),
-               "Include \"samples#.pbrt\"\n");
-  folder.write("scene.pbrt", text);
-  folder.write("samples1.pbrt", "Sampler \"random\" \"integer pixelsamples\" 2");
-  folder.write("samples2.pbrt", "Sampler \"random\" \"integer pixelsamples\" 1000000000");
-  folder.write("run.sh", Folder::program() +
-                             " --quiet --frames 1-3 --outfile '#.png' --checkpoint 'c#.film' "
-                             "--checkpoint-every 20ms scene.pbrt & p=$!\n"
-                             "while ! test -e c2.film; do sleep 0.05; done\n"
-                             "kill -USR1 $p; sleep 0.1; kill -TERM $p; wait $p\n");
-  const Outcome outcome = folder.command("sh run.sh");
-  EXPECT_EQ(outcome.code, 75) << outcome.err;
-  EXPECT_TRUE(there("1.png") && there("c1.film") && there("c2.film"));
-  EXPECT_FALSE(there("2.png") || there("3.png") || there("c3.film"));
-}
-
-TEST_F(Frames, EachGoesOnFromItsOwnCheckpoint) {
-  const std::string command =
-      "--quiet --frames 1-2 --outfile '#.exr' --checkpoint 'c##.film' --resume scene.pbrt";
-  EXPECT_EQ(folder.pbrt(command).code, 0);
-  const std::string second = contents(folder.path() / "c02.film");
-  const auto wanted = channels("2.exr");
-  fs::remove(folder.path() / "2.exr");
-  const Outcome again = folder.pbrt("--skip-existing " + command);
-  EXPECT_EQ(again.code, 0) << again.err;
-  EXPECT_EQ(channels("2.exr"), wanted);
-  EXPECT_EQ(contents(folder.path() / "c02.film"), second) << "it was complete";
 }
 
 // The largest of all programs that this test has run so far, in bytes.
@@ -249,7 +223,7 @@ long largest() {
 }
 
 // A film of 256 x 256 takes several MiB. One scene is there at a time.
-TEST_F(Frames, FortyTakeTheMemoryOfFour) {
+TEST_F(FramesTest, FortyTakeTheMemoryOfFour) {
   folder.write("scene.pbrt", scene("Shape \"sphere\"", 256));
   const std::string command = "--quiet --spp 1 --outfile '#.png' scene.pbrt --frames ";
   EXPECT_EQ(folder.pbrt(command + "1-4").code, 0);

@@ -174,6 +174,26 @@ TEST(Passes, TheErrorIsNotBelievedBeforeSixteenSamples) {
   EXPECT_EQ(looking.samples, 16U);
 }
 
+// An estimate that dips between the passes is not looked at there, whatever splits them.
+TEST(Passes, TheErrorEndsIndependentlyOfTheClock) {
+  const auto samples = [](double interval, bool shows) {
+    Goal goal = any();
+    goal.error = 0.05;
+    goal.interval = interval;
+    goal.showsError = shows;
+    Simulation s{.secondsOf = each(0.9), .errorOf = [](std::uint32_t n) {
+                   return std::optional(n % 7 == 3 ? 0.01 : 1 / std::sqrt(n));
+                 }};
+    s.run(goal);
+    return s.samples;
+  };
+  const std::uint32_t undisturbed = samples(1e9, false);
+  EXPECT_NEAR(undisturbed, 400, 1);
+  for (const double interval : {0.1, 3.0, 10.0, 50.0})
+    for (const bool shows : {false, true})
+      EXPECT_EQ(samples(interval, shows), undisturbed) << interval << shows;
+}
+
 TEST(Passes, AnErrorThatStaysEndsWithTheSamples) {
   Goal goal;
   goal.endSample = 500;

@@ -50,8 +50,15 @@ class Running {
   }
   // Waits until its handler of a signal stands; that of SIGTERM does once rendering begins.
   Running& untilItHandles(int signal) {
-    until([&] { return (handled() >> (signal - 1) & 1) != 0; });
-    return *this;
+    return until([&] { return handles(signal); });
+  }
+  bool handles(int signal) const {
+    const std::string caught = status("SigCgt:");  // a bit for each signal, from the lowest
+    return !caught.empty() && (std::stoul(caught, nullptr, 16) >> (signal - 1) & 1) != 0;
+  }
+  // Waits until SIGSTOP has worked.
+  Running& untilItStands() {
+    return until([&] { return status("State:").find('T') != std::string::npos; });
   }
   // Waits until something holds, or it has ended.
   template <class Condition>
@@ -74,12 +81,12 @@ class Running {
     return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) != 0 ||
            info.si_pid == id_;
   }
-  // One bit for each signal, from the lowest.
-  unsigned long handled() const {
+  // A line of what the system says of it. Empty: there is none.
+  std::string status(const std::string& name) const {
     std::ifstream in("/proc/" + std::to_string(id_) + "/status");
     for (std::string line; std::getline(in, line);)
-      if (line.starts_with("SigCgt:")) return std::stoul(line.substr(7), nullptr, 16);
-    return 0;
+      if (line.starts_with(name)) return line.substr(name.size());
+    return "";
   }
 
   std::filesystem::path folder_;

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
 #include <random>
 
+#include "core/scene/film_file.h"
 #include "tests/tools/foggy_scene.h"
 #include "tests/tools/running.h"
 #include "tests/tools/same_picture.h"
@@ -14,6 +16,16 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
+
+// Of all tiles together. None if there is no such file.
+std::uint64_t samplesIn(const fs::path& film) {
+  if (!fs::exists(film)) return 0;
+  constexpr std::size_t kTiles = 6;
+  const FilmInfo info = FilmReader(film).info();
+  if (!info.interrupted()) return kTiles * info.endSample;
+  EXPECT_EQ(info.reached.size(), kTiles);
+  return std::accumulate(info.reached.begin(), info.reached.end(), 0ULL);
+}
 
 TEST(Soak, AHundredTimesKilledItIsTheSamePicture) {
   constexpr int kKills = 100;
@@ -35,14 +47,16 @@ TEST(Soak, AHundredTimesKilledItIsTheSamePicture) {
 
   // So that a render is ended about as often as it is to be.
   const double longest = undisturbed.count() * 2 / kKills;
+  std::uint64_t saved = 0;  // samples in the checkpoint
   int kills = 0, killed = 0, stopped = 0, done = 0;
   while (kills < kKills || done == 0) {
     Running render(folder, line + fmt::format("--nthreads {} --checkpoint c.film --resume "
-                                              "--checkpoint-every {}ms --outfile out.exr",
-                                              1 + oneOf(4), 1 + oneOf(20)));
+                                              "--checkpoint-every 100ms --outfile out.exr",
+                                              1 + oneOf(4)));
     if (kills < kKills) {
       if (oneOf(5) > 0) render.untilItHandles(SIGTERM);
-      std::this_thread::sleep_for(Seconds(upTo(longest)));
+      const double timed = oneOf(10) == 0 ? 0.1 : 0;  // so that the time for a checkpoint comes
+      std::this_thread::sleep_for(Seconds(timed + upTo(longest)));
       for (int i = oneOf(3); i > 0; --i) {
         render.untilItHandles(SIGUSR1).send(SIGUSR1);
         std::this_thread::sleep_for(Seconds(upTo(0.01)));
@@ -55,12 +69,15 @@ TEST(Soak, AHundredTimesKilledItIsTheSamePicture) {
       ++done;
       expectSamePicture(once, readExr(folder.path() / "out.exr"));
       fs::remove(folder.path() / "c.film");
+      saved = 0;
     } else {
       ++(outcome.code == 75 ? stopped : killed);
       const bool asAsked = outcome.code == 75 || outcome.code == 128 + SIGKILL ||
                            outcome.code == 128 + SIGTERM;  // while the scene was read
       ASSERT_TRUE(asAsked) << outcome.code << outcome.err;
     }
+    const std::uint64_t before = std::exchange(saved, samplesIn(folder.path() / "c.film"));
+    EXPECT_GE(saved, before) << "samples were lost";
     for (const auto& entry : fs::directory_iterator(folder.path())) {
       const std::string name = entry.path().filename();
       EXPECT_TRUE(name == "scene.pbrt" || name == "once.exr" || name == "out.exr" ||

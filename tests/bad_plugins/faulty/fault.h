@@ -1,6 +1,8 @@
 #pragma once
 // What a plug-in does wrong, and where.
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <stdexcept>
 
@@ -26,6 +28,7 @@ class Fault {
     if (kind_ == "throws-int") throw 7;
     if (kind_ == "throws-error") throw Error("no such ray");
     if (kind_ == "eats-memory") throw std::bad_alloc();
+    while (kind_ == "hangs") pause();
     if (kind_ == "null") return *static_cast<volatile float*>(nothing_);
     if (kind_ == "aborts") std::abort();
     if (kind_ == "divides") return static_cast<float>(100 / *static_cast<volatile int*>(&zero_));
@@ -34,8 +37,8 @@ class Fault {
 
  private:
   static constexpr std::array kKinds = std::to_array<std::string_view>(
-      {"none", "nan", "infinite", "throws", "throws-int", "throws-error", "eats-memory", "null",
-       "aborts", "divides", "overflows"});
+      {"none", "nan", "infinite", "throws", "throws-int", "throws-error", "eats-memory", "hangs",
+       "null", "aborts", "divides", "overflows"});
 
   // Fills the stack.
   static int overflow(int depth) {

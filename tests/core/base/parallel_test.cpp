@@ -55,6 +55,15 @@ TEST(ThreadLimit, IsExactAboveTheNumberOfCoresToo) {
   }
 }
 
+TEST(ThreadLimit, StartsItsThreadsAtOnce) {
+  constexpr int kThreads = 30;  // more than another test has
+  const auto running = [] {
+    return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
+  };
+  const ThreadLimit limit(kThreads);
+  EXPECT_GE(running(), kThreads);
+}
+
 TEST(ThreadLimit, TheLeastCounts) {
   const ThreadLimit outer(5), inner(2);
   EXPECT_EQ(mostAtOnce(2), 2);

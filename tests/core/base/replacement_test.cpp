@@ -229,6 +229,18 @@ TEST_P(ReplacementOfKind, LeavesThoseOfLiveProcessesAlone) {
   EXPECT_EQ(folder_.files(), 1U);
 }
 
+// Names are given and taken all the time; no process removes what is another's.
+TEST_P(ReplacementOfKind, TakesManyWritersAtOnce) {
+  std::vector<pid_t> writers;
+  for (char c = 'a'; c < 'e'; ++c)
+    writers.push_back(start(GetParam(), [&] {
+      for (int i = 0; i < 500; ++i) EXPECT_NO_THROW(writeFile(file_, std::string(100, c)));
+    }));
+  for (const pid_t writer : writers) EXPECT_TRUE(went(writer));
+  EXPECT_EQ(contents(file_).size(), 100U);
+  EXPECT_EQ(folder_.files(), 1U);
+}
+
 TEST_P(ReplacementOfKind, RemovesWhatAKilledProcessHasLeft) {
   folder_.write("file", "old");
   const Gate written, never;

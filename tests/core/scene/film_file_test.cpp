@@ -3,6 +3,7 @@
 #include "core/scene/film_file.h"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <bit>
@@ -207,6 +208,18 @@ TEST_F(FilmFile, WhatIsNoFileIsRefused) {
   std::filesystem::create_directory(file_);
   EXPECT_FALSE(readsAll(file_));
   EXPECT_FALSE(readsAll("/dev/zero"));
+  ASSERT_EQ(mkfifo((folder_ / "pipe.film").c_str(), 0600), 0);
+  EXPECT_FALSE(readsAll(folder_ / "pipe.film")) << "and nobody waits for who writes into it";
+}
+
+// Is refused, in words that are ours.
+void expectNonsense(const std::string& header) {
+  try {
+    readFilmHeader(header);
+    ADD_FAILURE() << header;
+  } catch (const std::runtime_error& error) {
+    EXPECT_TRUE(std::string_view(error.what()).starts_with("its header ")) << error.what();
+  }
 }
 
 // Headers that are text, but no film's: what a hash does not tell.
@@ -236,6 +249,9 @@ TEST(FilmHeader, NonsenseIsRefused) {
       {"{\"int\":-3}", "{\"int\":\"a\"}"},                 //
       {"\"origin\":[0.0,", "\"origin\":[\"much\","},       //
       {"\"origin\":[0.0,", "\"origin\":["},                //
+      {"\"seconds\":0.1", "\"seconds\":-1e300"},           // no time
+      {"\"seconds\":0.1", "\"seconds\":\"inf\""},          //
+      {"\"seconds\":0.1", "\"seconds\":\"nan\""},          //
       {"\"key\"", "\"keys\""},                             //
       {"}", ""},                                           // no JSON
   };
@@ -243,10 +259,10 @@ TEST(FilmHeader, NonsenseIsRefused) {
     std::string bad = good;
     ASSERT_NE(bad.find(from), std::string::npos) << from;
     bad.replace(bad.find(from), from.size(), to);
-    EXPECT_ANY_THROW(readFilmHeader(bad)) << from << " -> " << to;
+    expectNonsense(bad);
   }
-  EXPECT_ANY_THROW(readFilmHeader(std::string(100000, '[')));
-  EXPECT_ANY_THROW(readFilmHeader(""));
+  expectNonsense(std::string(100000, '['));
+  expectNonsense("");
 }
 
 }  // namespace

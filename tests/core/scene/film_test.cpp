@@ -19,7 +19,7 @@ int tileOf(const Film& film, Point2i pixel) {
 struct TakenSample {
   Point2 at;
   Spectrum L;
-  float alpha;
+  bool opaque;
 };
 
 // n random samples, anywhere where the film takes samples.
@@ -31,13 +31,13 @@ std::vector<TakenSample> randomSamples(const Film& film, int n) {
     samples.push_back({Point2(area.lo) + Point2(rng.uniform() * float(area.width()),
                                                 rng.uniform() * float(area.height())),
                        {rng.uniform(), rng.uniform(), rng.uniform()},
-                       rng.uniform()});
+                       rng.uniform() < 0.7F});
   return samples;
 }
 
 void addAll(Film& film, const std::vector<TakenSample>& samples) {
   for (const TakenSample& s : samples)
-    film.add(tileOf(film, Point2i(glm::floor(s.at))), s.at, s.L, s.alpha);
+    film.add(tileOf(film, Point2i(glm::floor(s.at))), s.at, s.L, s.opaque);
 }
 
 class EveryFilter : public testing::TestWithParam<std::string> {};
@@ -72,7 +72,7 @@ TEST_P(EveryFilter, AConstantStaysConstant) {
   const auto filter = test::make<Filter>(GetParam());
   Film film({50, 40}, {{0, 0}, {50, 40}}, *filter, {});
   auto samples = randomSamples(film, 80000);
-  for (TakenSample& s : samples) s.L = Spectrum(0.25F, 1, 3), s.alpha = 1;
+  for (TakenSample& s : samples) s.L = Spectrum(0.25F, 1, 3), s.opaque = true;
   addAll(film, samples);
   const Image image = film.image();
   for (std::size_t i = 0; i < image.channels[0].size(); ++i) {
@@ -90,8 +90,8 @@ TEST_P(EveryFilter, TheOrderOfTilesDoesNotMatter) {
   for (int pass = 0; pass < forward.tiles(); ++pass)
     for (const TakenSample& s : samples) {
       const int tile = tileOf(forward, Point2i(glm::floor(s.at)));
-      if (tile == pass) forward.add(tile, s.at, s.L, s.alpha);
-      if (tile == forward.tiles() - 1 - pass) backward.add(tile, s.at, s.L, s.alpha);
+      if (tile == pass) forward.add(tile, s.at, s.L, s.opaque);
+      if (tile == forward.tiles() - 1 - pass) backward.add(tile, s.at, s.L, s.opaque);
     }
   EXPECT_EQ(forward.image().channels, backward.image().channels);
 }
@@ -114,7 +114,7 @@ TEST_P(EveryFilter, FilmsArePutTogetherInAnyOrder) {
     const TakenSample& s = samples[i];
     const Point2i pixel(glm::floor(s.at));
     const int tile = tileOf(film, pixel);
-    film.add(tile, s.at, s.L, s.alpha);
+    film.add(tile, s.at, s.L, s.opaque);
     FirstSurface surface;
     surface.albedo = surface.p = surface.n = s.L;
     surface.depth = s.L.x;
@@ -197,7 +197,7 @@ TEST(Film, WeightsDoNotDependOnTheTile) {
   Film small(size, crop, *gaussian, {}), large(size, other, *gaussian, {});
   for (const TakenSample& s : randomSamples(small, 2000))
     for (Film* film : {&small, &large})
-      film->add(tileOf(*film, Point2i(glm::floor(s.at))), s.at, s.L, s.alpha);
+      film->add(tileOf(*film, Point2i(glm::floor(s.at))), s.at, s.L, s.opaque);
   for (int c = 0; c < 4; ++c)
     for (int i = 0; i < 4; ++i)
       EXPECT_EQ(small.image().channels[c][i],
@@ -207,6 +207,28 @@ TEST(Film, WeightsDoNotDependOnTheTile) {
 TEST(Film, AFilterMayNotBeWiderThanMemory) {
   const auto wide = test::make<Filter>("box", {test::number("xwidth", 1e9F)});
   EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *wide, {}), Error);
+}
+
+TEST(Film, WhatGivesNoWeightsIsNoFilter) {
+  struct Level final : Filter {
+    explicit Level(float w) : Filter(Vec2(1)), weight(w) {}
+    float evaluate(Vec2 p) const override { return p.x > 0.5F ? weight : 0; }
+    float weight;
+  };
+  for (const float w : {std::nanf(""), kInfinity, -kInfinity, 0.F}) try {
+      Film({4, 4}, {{0, 0}, {4, 4}}, Level(w), {});
+      ADD_FAILURE() << w;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.failure(), Failure::plugin);
+    }
+  Film({4, 4}, {{0, 0}, {4, 4}}, Level(-1), {});
+}
+
+TEST(Film, BlocksFillTiles) {
+  const auto box = test::make<Filter>("box");
+  for (const int block : {-4, 0, 3, 12, 64})
+    EXPECT_THROW(Film({4, 4}, {{0, 0}, {4, 4}}, *box, {.block = block}), Error) << block;
+  for (const int block : {1, 2, 32}) Film({4, 4}, {{0, 0}, {4, 4}}, *box, {.block = block});
 }
 
 TEST(Film, TooLargeAFilmIsAClearError) {

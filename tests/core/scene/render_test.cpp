@@ -160,7 +160,7 @@ TEST(Render, StopsWhenToldTo) {
   RenderControl control;
   control.stop = true;
   scene->integrator().render(*scene, scene->sampler(), scene->film(), control);
-  EXPECT_EQ(control.tilesDone, 0);
+  EXPECT_EQ(control.samplesDone, 0U);
 }
 
 // Stopped wherever it may be, again and again, with other numbers of threads: the same bits.
@@ -207,6 +207,35 @@ TEST(Render, DoesNotGoOnWithAnotherFilm) {
   RenderControl control;
   control.reached = {1};
   EXPECT_THROW(scene->integrator().render(*scene, scene->sampler(), scene->film(), control), Error);
+}
+
+// One thread cannot begin; the others would go on for years.
+TEST(Render, EndsAtOnceIfAThreadCannotBegin) {
+  constexpr int kRays = SamplingIntegrator::kBlock * SamplingIntegrator::kBlock;
+  class OfOneThread final : public Sampler {
+   public:
+    explicit OfOneThread(std::atomic<int>& clones) : Sampler(1), clones_(clones) {}
+    std::unique_ptr<Sampler> clone() const override {
+      if (++clones_ > kRays) throw Error("there is none for a second thread");
+      return std::make_unique<OfOneThread>(clones_);
+    }
+    void start(Point2i, std::uint32_t) override {
+      while (clones_ <= kRays) std::this_thread::yield();
+    }
+    float get1D() override { return 0.5F; }
+    Point2 get2D() override { return {0.5F, 0.5F}; }
+
+   private:
+    std::atomic<int>& clones_;
+  };
+  const auto scene = test::buildText(everything("random", "whitted"));
+  std::atomic<int> clones = 0;
+  RenderControl control;
+  control.threads = 2;
+  control.endSample = 1U << 31U;
+  EXPECT_THROW(scene->integrator().render(*scene, OfOneThread(clones), scene->film(), control),
+               Error);
+  EXPECT_TRUE(control.stop);
 }
 
 TEST(Render, CountsItsRays) {

@@ -117,7 +117,7 @@ TEST(IntegratorLaws, FindEveryFlaw) {
                   {plugin<kCountsCalls>(), "thread-safe", "in 4 threads"},
                   {plugin<kCountsThreads>(), "thread-safe", "in 4 threads"},
                   {plugin<kForgetsPasses>(), "samples-add-up", "and then 2 and 3"},
-                  {plugin<kMovesWithCrop>(), "crop-is-a-part", "in the whole picture"},
+                  {plugin<kMovesWithCrop>(), "crop-is-a-part", "in a crop"},
                   {plugin<kIgnoresSeed>(), "seeds-agree", "the same in every scene"},
                   {plugin<kOneNumberForAll>(), "seeds-agree", "of seeds 0 and 1 differ by"},
                   {plugin<kAllocates>(), "allocates-nothing", "0.50 times a sample"},

@@ -65,6 +65,18 @@ TEST_F(MergeCommand, GivesThePictureOfOneProcess) {
   expectSamePicture("resumed.exr", "six.exr");
 }
 
+TEST_F(MergeCommand, FilmsThatScenesNameArePartsOfThem) {
+  std::string scene = foggyScene();
+  scene.replace(scene.find("out.exr"), 7, "a.film");
+  folder_.write("scene.pbrt", scene);
+  render("--spp 2 --samples 0..1");
+  fs::rename(folder_.path() / "a.film", folder_.path() / "b.film");
+  render("--spp 2 --samples 1..2");
+  EXPECT_EQ(merge("a.film b.film --outfile x.exr").code, 0);
+  render("--spp 2 --samples 1..2 --seed 5");
+  EXPECT_EQ(merge("a.film b.film --outfile x.exr").code, 3);
+}
+
 TEST_F(MergeCommand, SaysWhatIsWrong) {
   render("--samples 0..1 --outfile a.film");
   render("--samples 1..2 --outfile b.film --seed 5");
