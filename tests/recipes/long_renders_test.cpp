@@ -89,50 +89,68 @@ const Recipe kRecipes[] = {
      {"frame-0001.exr", "frame-0002.exr"}},
 };
 
-class LongRenders : public testing::TestWithParam<Recipe> {};
+class LongRenders : public testing::Test {
+ protected:
+  // Carries out a recipe, which is recipe.sh there, or others with that.
+  void follow(const Recipe& recipe, const std::string& command = "bash recipe.sh") const {
+    for (const std::string& program : recipe.needs)
+      if (!there(program)) GTEST_SKIP() << "there is no " << program;
+    folder_.write("scene.pbrt", kScene);
+    for (const auto& file : fs::directory_iterator(kExamples))
+      fs::copy_file(file, folder_.path() / file.path().filename());
+    folder_.write("recipe.sh", "set -e\n" + sections()[recipe.heading]);
+    const bool slurm = std::ranges::count(recipe.needs, "slurmd") > 0;
 
-TEST_P(LongRenders, MakeTheSamePictureWhateverBefallsThem) {
-  const Recipe& recipe = GetParam();
-  for (const std::string& program : recipe.needs)
-    if (!there(program)) GTEST_SKIP() << "there is no " << program;
-  const test::Folder folder;
-  folder.write("scene.pbrt", kScene);
-  for (const auto& file : fs::directory_iterator(kExamples))
-    fs::copy_file(file, folder.path() / file.path().filename());
-  folder.write("recipe.sh", "set -e\n" + sections()[recipe.heading]);
-  const bool slurm = std::ranges::count(recipe.needs, "slurmd") > 0;
+    const test::Outcome run = folder_.command(
+        "env -u PBRT_PLUGIN_PATH PBRT='" + test::Folder::program() + "' TROUBLES='" +
+        recipe.troubles +
+        "' PATH='" PBRT_SOURCE_DIR "/tests/recipes/bad-day:" PBRT_BUILD_DIR "/bin':\"$PATH\" " +
+        (slurm ? PBRT_SOURCE_DIR "/tests/recipes/with-slurm " : "") + command);
+    std::string logs;  // of tasks, whose errors go there
+    for (const auto& file : fs::directory_iterator(folder_.path()))
+      if (file.path().extension() == ".log") logs += test::contents(file);
+    ASSERT_EQ(run.code, 0) << run.out << run.err << logs;
 
-  const test::Outcome run = folder.command(
-      "env -u PBRT_PLUGIN_PATH PBRT='" + test::Folder::program() + "' TROUBLES='" +
-      recipe.troubles +
-      "' PATH='" PBRT_SOURCE_DIR "/tests/recipes/bad-day:" PBRT_BUILD_DIR "/bin':\"$PATH\" " +
-      (slurm ? PBRT_SOURCE_DIR "/tests/recipes/with-slurm " : "") + "bash recipe.sh");
-  std::string logs;  // of tasks, whose errors go there
-  for (const auto& file : fs::directory_iterator(folder.path()))
-    if (file.path().extension() == ".log") logs += test::contents(file);
-  ASSERT_EQ(run.code, 0) << run.out << run.err << logs;
+    std::istringstream troubles(test::contents(folder_.path() / "troubles.log"));
+    std::vector<std::string> codes;
+    for (std::string line; std::getline(troubles, line);) codes.push_back(line);
+    EXPECT_THAT(codes, UnorderedElementsAreArray(recipe.codes)) << logs;
 
-  std::istringstream troubles(test::contents(folder.path() / "troubles.log"));
-  std::vector<std::string> codes;
-  for (std::string line; std::getline(troubles, line);) codes.push_back(line);
-  EXPECT_THAT(codes, UnorderedElementsAreArray(recipe.codes)) << logs;
-
-  ASSERT_EQ(folder.pbrt("scene.pbrt --quiet --outfile peace.exr").code, 0);
-  const Image peace = readExr(folder.path() / "peace.exr");
-  for (const std::string& picture : recipe.pictures) {
-    const Image image = readExr(folder.path() / picture);
-    EXPECT_EQ(image.names, peace.names);
-    EXPECT_EQ(image.channels, peace.channels);
-    EXPECT_EQ(image.attributes.at("samplesPerPixel"), peace.attributes.at("samplesPerPixel"));
+    ASSERT_EQ(folder_.pbrt("scene.pbrt --quiet --outfile peace.exr").code, 0);
+    const Image peace = readExr(folder_.path() / "peace.exr");
+    for (const std::string& picture : recipe.pictures) {
+      const Image image = readExr(folder_.path() / picture);
+      EXPECT_EQ(image.names, peace.names);
+      EXPECT_EQ(image.channels, peace.channels);
+      EXPECT_EQ(image.attributes.at("samplesPerPixel"), peace.attributes.at("samplesPerPixel"));
+    }
   }
+
+ private:
+  const test::Folder folder_;
+};
+
+class EachRecipe : public LongRenders, public testing::WithParamInterface<Recipe> {};
+
+TEST_P(EachRecipe, MakeTheSamePictureWhateverBefallsThem) {
+  follow(GetParam());
 }
 
-INSTANTIATE_TEST_SUITE_P(Recipes, LongRenders, testing::ValuesIn(kRecipes), [](const auto& tested) {
-  std::string name;
-  for (const char c : tested.param.heading)
-    if (std::isalnum(static_cast<unsigned char>(c))) name += c;
-  return name;
-});
+// A task is killed: the second job neither waits for ever nor makes a picture of the others. Then
+// tasks are repeated by their numbers.
+TEST_F(LongRenders, SlurmTellsOfATaskThatFailed) {
+  follow({"Slurm", "KILL", {"KILL: 137"}, {"slurmd", "munged"}, {"scene.exr"}},
+         "sh -c 'bash recipe.sh; test $? = 3 && test ! -e scene.exr && "
+         "sed s/array=0-3/array=0,1,2,3/ recipe.sh | bash'");
+}
+
+INSTANTIATE_TEST_SUITE_P(LongRenders, EachRecipe, testing::ValuesIn(kRecipes),
+                         [](const auto& tested) {
+                           std::string name;
+                           for (const char c : tested.param.heading)
+                             if (std::isalnum(static_cast<unsigned char>(c))) name += c;
+                           return name;
+                         });
 
 // The command of a task of frames.openjd.yaml; the rest of the template was held to its
 // specification (jobtemplate-2023-09) by hand.
