@@ -104,13 +104,13 @@ TEST(Checkpoint, ThatCannotBeWrittenNowDoesNotEndTheRender) {
   const Disk disk(folder, "disk", 24);
   ASSERT_TRUE(disk.mounted());
   const Outcome outcome = folder.pbrt(
-      "scene.pbrt --spp 400 --checkpoint disk/a.film --checkpoint-every 100ms --outfile out.exr");
+      "scene.pbrt --spp 200 --checkpoint disk/a.film --checkpoint-every 100ms --outfile out.exr");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("warning: cannot write disk/a.film: No space left"), std::string::npos)
       << outcome.err;
   EXPECT_NE(outcome.err.find("error: cannot write disk/a.film: No space left"), std::string::npos)
       << outcome.err;
-  ASSERT_EQ(folder.pbrt("scene.pbrt --quiet --spp 400 --outfile whole.exr").code, 0);
+  ASSERT_EQ(folder.pbrt("scene.pbrt --quiet --spp 200 --outfile whole.exr").code, 0);
   EXPECT_EQ(readExr(folder.path() / "out.exr").channels,
             readExr(folder.path() / "whole.exr").channels);
 }
