@@ -104,7 +104,7 @@ TEST(Checkpoint, ThatCannotBeWrittenNowDoesNotEndTheRender) {
   const Disk disk(folder, "disk", 24);
   ASSERT_TRUE(disk.mounted());
   const Outcome outcome = folder.pbrt(
-      "scene.pbrt --spp 200 --checkpoint disk/a.film --checkpoint-every 10ms --outfile out.exr");
+      "scene.pbrt --spp 200 --checkpoint disk/a.film --checkpoint-every 100ms --outfile out.exr");
   EXPECT_EQ(outcome.code, 4);
   EXPECT_NE(outcome.err.find("warning: cannot write disk/a.film: No space left"), std::string::npos)
       << outcome.err;
