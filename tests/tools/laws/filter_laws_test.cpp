@@ -76,7 +76,7 @@ TEST(FilterLaws, FindEveryFlaw) {
                   {plugin<kHollow>(), "peaks-at-centre", "at the centre only 0"},
                   {plugin<kSteps>(), "continuous", "jumps from 0 at (-2, 0) to 1"},
                   {plugin<kNeedle>(), "smooth-for-the-film", "by the film's table"},
-                  {plugin<kSpike>(), "even-light-stays-even", "lit by 0.75 everywhere is 0"},
+                  {plugin<kSpike>(), "even-light-stays-even", "gives no sample any weight"},
                   {plugin<kUnchecked>(), "extremes", "\"float power\""},
                   {plugin<kFixed>(), "widths", "its radius() is (2, 2)"},
                   {plugin<kCountsCalls>(), "repeatable", "asked again"},
