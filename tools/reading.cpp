@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "core/base/file.h"
+#include "status_line.h"
 
 namespace pbrt {
 
@@ -20,8 +19,9 @@ void parse(Parser& parser, const std::vector<std::string>& files) {
 int judge(const Options& o) {
   const std::size_t errors = o.reports->errors();
   if (errors == 0) return 0;
-  fmt::print(stderr, "{} error{}{}\n", errors, errors == 1 ? "" : "s",
-             o.permissive ? " passed over: the picture is not what the scene asks for" : "");
+  printError(
+      fmt::format("{} error{}{}", errors, errors == 1 ? "" : "s",
+                  o.permissive ? " passed over: the picture is not what the scene asks for" : ""));
   return o.permissive ? 0 : static_cast<int>(Failure::scene);
 }
 

@@ -10,17 +10,12 @@
 namespace pbrt {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
 // A system of files as the kernel shows them.
 class Groups : public testing::Test {
  protected:
-  void write(const std::string& name, const std::string& text) {
-    fs::create_directories((folder_.path() / name).parent_path());
-    folder_.write(name, text);
-  }
+  void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
   std::size_t limit() const { return controlGroupMemory(folder_.path()); }
 
   test::Folder folder_;

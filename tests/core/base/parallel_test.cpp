@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "tests/command.h"
+
 namespace pbrt {
 namespace {
 
@@ -85,19 +87,13 @@ TEST(DefaultThreads, AreNoMoreThanTheAffinityMaskHas) {
 // A tree of files such as Linux shows.
 class ControlGroupCores : public testing::Test {
  protected:
-  ControlGroupCores() {
-    std::string pattern = (fs::temp_directory_path() / "pbrt-test-XXXXXX").string();
-    root_ = mkdtemp(pattern.data());
-  }
-  ~ControlGroupCores() override { fs::remove_all(root_); }
   void write(const std::string& file, const std::string& text) const {
-    fs::create_directories((root_ / file).parent_path());
-    std::ofstream(root_ / file) << text << '\n';
+    folder_.write(file, text + '\n');
   }
-  int cores() const { return controlGroupCores(root_); }
+  int cores() const { return controlGroupCores(folder_.path()); }
 
  private:
-  fs::path root_;
+  test::Folder folder_;
 };
 
 constexpr int kAll = std::numeric_limits<int>::max();

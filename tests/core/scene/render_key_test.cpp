@@ -2,10 +2,9 @@
 
 #include "core/scene/render_key.h"
 
-#include <zlib.h>
-
 #include "core/base/file.h"
 #include "tests/command.h"
+#include "tests/gzip.h"
 #include "tests/scenes.h"
 
 namespace pbrt::test {
@@ -18,21 +17,6 @@ std::string pfm(float value) {
   std::string bytes = "Pf\n2 2\n-1\n";
   for (int i = 0; i < 4; ++i) bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
   return bytes;
-}
-
-std::string packed(const std::string& bytes) {
-  z_stream stream{};
-  constexpr int kGzip = 16;  // added to the size of the window
-  deflateInit2(&stream, 9, Z_DEFLATED, MAX_WBITS + kGzip, 8, Z_DEFAULT_STRATEGY);
-  std::string out(deflateBound(&stream, bytes.size()) + 32, '\0');
-  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(out.data());
-  stream.avail_out = static_cast<uInt>(out.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  out.resize(stream.total_out);
-  deflateEnd(&stream);
-  return out;
 }
 
 std::string triangle(const std::string& x) {
