@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <numeric>
+
 #include "core/base/image.h"
 #include "core/scene/film_file.h"
 #include "tests/tools/foggy_scene.h"
@@ -73,7 +75,7 @@ TEST_F(SignalsTest, ThePictureOfNoSampleIsNotWritten) {
 
 TEST_F(SignalsTest, OnRequestItSavesAndGoesOn) {
   Running render(folder, kLong + std::string("--checkpoint c.film --checkpoint-every 1h"));
-  std::uint64_t before = 0;
+  double before = 0;
   for (int i = 0; i < 3; ++i) {
     render.untilItHandles(SIGTERM).until([&] {
       render.send(SIGUSR1);  // again if it came while the last was saved, which answered it
@@ -82,8 +84,10 @@ TEST_F(SignalsTest, OnRequestItSavesAndGoesOn) {
     });
     FilmReader reader(folder.path() / "c.film");
     const FilmInfo info = reader.info();
-    std::uint64_t samples = info.endSample;
-    for (const std::uint32_t reached : info.reached) samples += reached;
+    double samples = info.endSample;  // of a tile, on average
+    if (info.interrupted())
+      samples = std::accumulate(info.reached.begin(), info.reached.end(), 0.0) /
+                static_cast<double>(info.reached.size());
     EXPECT_GE(samples, before);
     before = samples;
     fs::remove(folder.path() / "c.film");
