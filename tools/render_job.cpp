@@ -71,8 +71,7 @@ void RenderJob::resume() try {
     throw Error(fmt::format("cannot go on from {}: {}", o_.checkpoint, reason));
   };
   const FilmInfo found = FilmReader(o_.checkpoint).info();
-  const std::uint32_t most =
-      found.interrupted() ? std::ranges::max(found.reached) : found.endSample;
+  const std::uint32_t most = found.mostEndSample();
   const std::string differs = difference(key_, found.key);
   if (!differs.empty()) refuse(differs);
   if (found.window != scene_.film().crop())

@@ -2,6 +2,7 @@
 // Films on disk (*.film): the sums of a render before they are divided, so that it can be continued
 // and put together with others.
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -37,6 +38,10 @@ struct FilmInfo {
   std::map<std::string, ImageAttribute> attributes;  // for the picture
 
   bool interrupted() const { return !reached.empty(); }
+  // As endSample, but the greatest.
+  std::uint32_t mostEndSample() const {
+    return interrupted() ? *std::ranges::max_element(reached) : endSample;
+  }
 };
 
 // By its name.

@@ -1,7 +1,5 @@
 #include "core/scene/picture_attributes.h"
 
-#include <algorithm>
-
 namespace pbrt {
 
 std::map<std::string, ImageAttribute> pictureAttributes(const FilmInfo& info) {
@@ -11,8 +9,7 @@ std::map<std::string, ImageAttribute> pictureAttributes(const FilmInfo& info) {
   auto attributes = info.attributes;
   attributes["firstSample"] = static_cast<int>(info.firstSample);
   attributes["samplesPerPixel"] = samplesTo(info.endSample);
-  if (info.interrupted())
-    attributes["mostSamplesPerPixel"] = samplesTo(*std::ranges::max_element(info.reached));
+  if (info.interrupted()) attributes["mostSamplesPerPixel"] = samplesTo(info.mostEndSample());
   attributes["renderTimeSeconds"] = info.seconds;
   return attributes;
 }

@@ -58,8 +58,7 @@ void checkSameRender(const Part& wanted, const Part& found) {
 // Of a film that was.
 std::string interruption(const FilmInfo& info) {
   return fmt::format("was interrupted: pixels have {} to {} samples",
-                     info.endSample - info.firstSample,
-                     std::ranges::max(info.reached) - info.firstSample);
+                     info.endSample - info.firstSample, info.mostEndSample() - info.firstSample);
 }
 
 void checkUninterrupted(const Part& part) {
